@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <string>
+
+#include "seine/certify/certificate.hpp"
+#include "seine/traj/trajectory.hpp"
+#include "seine/world/scenario.hpp"
+
+namespace seine::planner {
+
+/// Reported now and then while planning; called from the planning thread.
+struct Progress {
+  const char* stage = "";  ///< "guess", "optimise", "certify", "repair"
+  double fraction = 0.0;   ///< of the stage, 0 … 1
+};
+
+struct Options {
+  double deadline_s = std::numeric_limits<double>::infinity();  ///< wall time for everything
+  int threads = 0;                                              ///< 0: as many as the machine has
+  std::uint64_t seed = 0;
+  std::function<void(const Progress&)> progress;                ///< optional
+};
+
+/// Where the time went, seconds.
+struct Times {
+  double compute = 0.0;  ///< from the parsed scenario to the certified plan
+  double guess = 0.0;
+  double corridor = 0.0;
+  double optimise = 0.0;
+  double certify = 0.0;
+};
+
+/// What a plan costs (design section 10).
+struct Quality {
+  double makespan = 0.0;           ///< s
+  double mean_travel = 0.0;        ///< s, mean over robots of their own arrival times
+  double distance = 0.0;           ///< m, Σ_k ∫ |σ̇| dt
+  double acceleration_cost = 0.0;  ///< m²/s³, Σ_k ∫ (a_t² + a_n²) dt
+};
+
+struct PlanResult {
+  bool certified = false;
+  std::string reason = "not run";  ///< empty when certified
+  traj::TeamTrajectory plan;       ///< only meaningful when certified
+  certify::Certificate certificate;
+  Quality quality;
+  Times times;
+  int iterations = 0;              ///< objective evaluations, all rounds
+  int repairs = 0;                 ///< rounds of re-guessing after the first
+};
+
+/// Plans for the whole team. An impossible or unsolved task is a result with a reason; a scenario that is wrong in itself (a start in
+/// collision, two goals that overlap) throws InputError.
+PlanResult plan(const world::Scenario& scenario, const Options& options = {});
+
+Quality measure(const traj::TeamTrajectory& plan);
+
+}  // namespace seine::planner
