@@ -3,7 +3,7 @@
 add_library(seine_flags INTERFACE)
 # Strict IEEE arithmetic stays (results are reproducible); only errno and trap semantics, which block vectorisation, go.
 target_compile_options(seine_flags INTERFACE
-  -Wall -Wextra -Wconversion -Wshadow -Werror -fno-math-errno -fno-trapping-math)
+  -Wall -Wextra -Wconversion -Wshadow -Werror -fno-math-errno -fno-trapping-math -fopenmp-simd)
 if(SEINE_SANITIZE)
   target_compile_options(seine_flags INTERFACE -fsanitize=${SEINE_SANITIZE} -fno-omit-frame-pointer)
   if(SEINE_SANITIZE MATCHES "undefined")
@@ -37,6 +37,8 @@ function(seine_add_room room)
   endforeach()
   if(room STREQUAL "base")
     target_link_libraries(${target} ${scope} Threads::Threads)
+  elseif(room STREQUAL "traj")
+    target_link_libraries(${target} PRIVATE Eigen3::Eigen)
   elseif(room STREQUAL "io" AND sources)
     target_link_libraries(${target} PRIVATE yaml-cpp nlohmann_json::nlohmann_json PNG::PNG)
   endif()
