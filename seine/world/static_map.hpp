@@ -1,6 +1,6 @@
 #pragma once
 
-#include <optional>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -11,7 +11,8 @@
 namespace seine::world {
 
 /// Everything that stands still, as convex pieces in a bucket grid: polygons cut into convex parts, circles as rounded points,
-/// occupied map cells as rectangles. Immutable after construction; safe to query from many threads at once.
+/// occupied map cells as rectangles. Immutable after construction; safe to query from many threads at once, and from within a
+/// query's own `visit`.
 class StaticMap {
  public:
   struct Piece {
@@ -32,37 +33,73 @@ class StaticMap {
 
   /// The piece nearest to a convex polygon, and how it stands to it.
   struct Nearest {
-    double distance;     ///< exact signed distance, m; `cap` when nothing is nearer
-    int piece = -1;      ///< index into pieces(); −1: the bounds, or nothing within cap
-    bool bounds = false; ///< the bounds are what is nearest
-    geom::Separation separation{};
+    double distance;                ///< exact signed distance, m; `cap` when nothing is nearer
+    int piece = -1;                 ///< index into pieces(); −1: the bounds, or nothing within cap
+    bool bounds = false;            ///< the bounds are what is nearest
+    geom::Separation separation{};  ///< a = the polygon, b = the piece or the bounds; unset when nothing is within cap
   };
-  /// Looks no further than `cap` metres.
+  /// Looks no further than `cap` metres; an infinite cap is allowed. Ties go to the lower index, and to pieces before bounds.
   Nearest nearest(std::span<const geom::Vec2> polygon, double cap) const;
-  /// Distance only: true when the polygon keeps `clearance` (m) to every piece and to the bounds.
+  /// Distance only: true when the polygon keeps `clearance` (m) to every piece and to the bounds, to within a nanometre.
   bool clear(std::span<const geom::Vec2> polygon, double clearance) const;
   /// "obstacle 3", the user's name of it, or "the map at (x, y)".
   std::string describe(int piece) const;
 
  private:
-  // `collect` gathers the distinct indices of pieces in the buckets under `box`, ascending, in a thread-local scratch list.
-  std::span<const int> collect(const geom::Box& box) const;
+  // A range of buckets, ends included; empty when high < low.
+  struct Range {
+    int column_low, column_high, row_low, row_high;
+  };
+  // The distinct indices of pieces whose boxes overlap a box, ascending, in a list borrowed from the thread for as long as it lives.
+  class Found {
+   public:
+    Found(const StaticMap& map, const geom::Box& box);
+    ~Found();
+    Found(const Found&) = delete;
+    Found& operator=(const Found&) = delete;
+    const int* begin() const { return indices_->data(); }
+    const int* end() const { return indices_->data() + indices_->size(); }
+
+   private:
+    std::vector<int>* indices_;
+  };
+
+  void add_pieces(const Scenario& scenario);
+  void build_buckets();
+  int column_of(double x) const;
+  int row_of(double y) const;
+  Range range_of(const geom::Box& box) const;
+  // Calls visit(index) -> bool for pieces whose boxes overlap `box`, each once, in bucket order; stops and returns false as soon
+  // as it does.
+  template <class Visit>
+  bool visit_buckets(const geom::Box& box, Visit&& visit) const;
+  bool piece_clear(std::size_t piece, std::span<const geom::Vec2> polygon, double clearance) const;
 
   geom::Box bounds_;
   std::vector<Piece> pieces_;
-  std::vector<std::string> names_;
-  double bucket_ = 1.0;  // m
+  std::vector<std::string> names_;  // of obstacles
+
+  // Buckets: CSR over columns·rows cells of side bucket_ from low_ on; pieces beyond the grid are filed in its border cells.
+  geom::Vec2 low_;
+  double bucket_ = 1.0;   // m
+  double inverse_ = 1.0;  // 1/m
   int columns_ = 0, rows_ = 0;
-  std::vector<int> bucket_begin_;  // CSR: columns·rows + 1
+  std::vector<int> bucket_begin_;
   std::vector<int> bucket_items_;
+
+  // What `clear` reads, packed: boxes and, per face of a core, its tail and unit outward normal (a point has one with normal 0).
+  struct Face {
+    geom::Vec2 tail, normal;
+  };
+  std::vector<geom::Box> boxes_;
+  std::vector<int> face_begin_;
+  std::vector<Face> faces_;
 };
 
 template <class Visit>
 void StaticMap::for_each_near(const geom::Box& box, Visit&& visit) const {
-  for (const int index : collect(box)) {
-    const Piece& piece = pieces_[static_cast<std::size_t>(index)];
-    if (piece.box.overlaps(box)) visit(piece);
-  }
+  const Found found(*this, box);
+  for (const int index : found) visit(pieces_[static_cast<std::size_t>(index)]);
 }
 
 }  // namespace seine::world
