@@ -20,4 +20,16 @@ inline geom::Pose2 drive(const geom::Pose2& from, double curvature, double dista
           geom::wrap_angle(from.heading + 2.0 * half_turn)};
 }
 
+/// A stretch with the front wheel held still.
+struct Arc {
+  double curvature = 0.0;  ///< 1/m, positive: wheel to the left
+  double distance = 0.0;   ///< m, signed: negative backwards
+
+  int gear() const { return distance < 0.0 ? -1 : 1; }
+};
+
+inline geom::Pose2 drive(const geom::Pose2& from, const Arc& arc) {
+  return drive(from, arc.curvature, arc.distance);
+}
+
 }  // namespace seine::vehicle
