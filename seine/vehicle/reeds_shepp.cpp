@@ -112,8 +112,8 @@ int Best::copy_to(std::span<ReedsSheppPath> out) const {
   return count_;
 }
 
-double full_turn(double angle) { return angle < -kRounding ? angle + 2.0 * kPi : angle; }
-  return angle < 0.0 ? angle + 2.0 * kPi : angle;
+double full_turn(double angle) {
+  return angle < -kRounding ? angle + 2.0 * kPi : angle;
 }
 
 /// CSC: LSL [Reeds90, 8.1] and LSR [8.2]. Turns beyond π are never shortest but are in one gear.
