@@ -140,8 +140,8 @@ bool scatter_robots(Scenario& scenario, const std::vector<Clutter>& clutter, int
 Scenario random_scene(int robots, std::uint64_t seed, std::optional<int> obstacles) {
   double side = robots <= kReferenceTeam ? kSide : std::sqrt(kAreaPerCar * robots);
   const int count = obstacles.value_or(static_cast<int>(std::lround(kObstaclesPerArea * side * side)));
-  // More clutter than the default world can hold starts in one that can: 8 m² an obstacle.
-  side = std::max(side, std::sqrt(8.0 * count));
+  // More clutter than the default world can hold starts in one that can: 11 m² an obstacle.
+  side = std::max(side, std::sqrt(11.0 * count));
   Rng rng(seed);
   // A scene that got stuck is drawn anew in a world 2 % wider: for the default numbers practically never, for
   // any numbers in the end.

@@ -1,0 +1,23 @@
+file(REMOVE_RECURSE ${SCRATCH}/prefix ${SCRATCH}/example)
+
+function(run)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(NOT status EQUAL 0)
+    string(REPLACE ";" " " command "${ARGN}")
+    message(FATAL_ERROR "${command}\nended with ${status}:\n${output}")
+  endif()
+  set(output "${output}" PARENT_SCOPE)
+endfunction()
+
+if(SANITIZE)
+  set(flags -DCMAKE_CXX_FLAGS=-fsanitize=${SANITIZE})
+endif()
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${SCRATCH}/prefix)
+run(${CMAKE_COMMAND} -S ${EXAMPLE} -B ${SCRATCH}/example -G Ninja -DCMAKE_BUILD_TYPE=Release
+  -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_PREFIX_PATH=${SCRATCH}/prefix ${flags})
+run(${CMAKE_COMMAND} --build ${SCRATCH}/example)
+run(${SCRATCH}/example/plan_team)
+if(NOT output MATCHES "everybody has arrived")
+  message(FATAL_ERROR "the example said:\n${output}")
+endif()
+run(${SCRATCH}/prefix/bin/seine --help)
