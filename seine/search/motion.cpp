@@ -42,7 +42,7 @@ const DiscCover::Disc& DiscCover::widest() const {
                            [](const Disc& a, const Disc& b) { return a.inner < b.inner - 1e-12; });
 }
 
-FootprintChecker::FootprintChecker(const world::StaticMap& map, const geom::DistanceField* field,
+FootprintChecker::FootprintChecker(const world::StaticMap& map, const PointDistances* field,
                                    const vehicle::Model& model, double clearance)
     : map_(&map),
       field_(field),
@@ -83,6 +83,18 @@ double FootprintChecker::fastest_corner(double curvature) const {
   return std::sqrt(square);
 }
 
+double FootprintChecker::quick_room(const geom::Pose2& pose) const {
+  if (field_ == nullptr) return 0.0;
+  const geom::Vec2 ahead = pose.direction(), axis = pose.position() + cover_.axis * geom::left_normal(ahead);
+  double room = std::numeric_limits<double>::infinity();
+  for (const DiscCover::Disc& disc : cover_.discs) {
+    const PointDistances::Bounds distance = field_->bounds(axis + disc.x * ahead);
+    if (distance.upper < disc.inner + clearance_) return -1.0;
+    room = std::min(room, distance.lower - disc.outer - clearance_);
+  }
+  return std::max(room, 0.0);
+}
+
 double FootprintChecker::map_room(std::span<const geom::Vec2> polygon) const {
   return map_->nearest(polygon, clearance_ + look_).distance - clearance_;
 }
@@ -102,6 +114,10 @@ double FootprintChecker::parked_room(const geom::Pose2& pose, std::span<const ge
 }
 
 double FootprintChecker::room(const geom::Pose2& pose) const {
+  double room = quick_room(pose);
+  if (room < 0.0) return room;
+  const bool sure = room > slack_;
+  if (sure && parked_.empty()) return room;
   std::array<geom::Vec2, kMaxCorners> storage;
   std::vector<geom::Vec2> heap;
   std::span<geom::Vec2> polygon(storage.data(), std::min(kMaxCorners, model_->footprint.size()));
@@ -110,7 +126,7 @@ double FootprintChecker::room(const geom::Pose2& pose) const {
     polygon = heap;
   }
   geom::place(model_->footprint, pose, polygon);
-  const double room = map_room(polygon);
+  if (!sure) room = map_room(polygon);
   if (room < 0.0 || parked_.empty()) return room;
   return parked_room(pose, polygon, room);
 }

@@ -6,17 +6,14 @@
 
 #include "seine/geom/box.hpp"
 #include "seine/geom/pose2.hpp"
+#include "seine/search/point_distances.hpp"
 #include "seine/vehicle/arc.hpp"
 #include "seine/vehicle/model.hpp"
 #include "seine/world/static_map.hpp"
 
-namespace seine::geom {
-class DistanceField;
-}
-
 namespace seine::search {
 
-/// A footprint as discs along its long axis, for quick answers from a distance field: the union of the outer
+/// A footprint as discs along its long axis, for quick answers from point distances: the union of the outer
 /// discs covers the footprint, every inner disc lies inside it.
 struct DiscCover {
   struct Disc {
@@ -39,7 +36,7 @@ struct DiscCover {
 class FootprintChecker {
  public:
   /// @param field may be null; when given it is of the same map and only makes the answers quicker.
-  FootprintChecker(const world::StaticMap& map, const geom::DistanceField* field, const vehicle::Model& model,
+  FootprintChecker(const world::StaticMap& map, const PointDistances* field, const vehicle::Model& model,
                    double clearance);
 
   /// Footprints in the world (convex, counter-clockwise) that are obstacles too, with their own clearance.
@@ -86,11 +83,12 @@ class FootprintChecker {
     double slack;
   };
   double fastest_corner(double curvature) const;
+  double quick_room(const geom::Pose2& pose) const;
   double map_room(std::span<const geom::Vec2> polygon) const;
   double parked_room(const geom::Pose2& pose, std::span<const geom::Vec2> polygon, double cap) const;
 
   const world::StaticMap* map_;
-  const geom::DistanceField* field_;
+  const PointDistances* field_;
   const vehicle::Model* model_;
   DiscCover cover_;
   double clearance_;

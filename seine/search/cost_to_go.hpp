@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "seine/geom/vec2.hpp"
+#include "seine/search/point_distances.hpp"
+
+namespace seine::search {
+
+/// Shortest way of a disc to one goal point on the cells of a PointDistances, 8-connected: the heuristic of a
+/// car whose footprint contains the disc. Works backwards from the goal, only as far as it is asked (A*
+/// towards a focus, resumable; values do not depend on the order of questions). A cell is blocked only when
+/// no point in it can hold the disc, and cells are small enough against the disc that no wall is stepped
+/// over: where this finds no way there is none. Not thread-safe.
+class CostToGo {
+ public:
+  /// @param radius  m, disc plus clearance; distances.cell() ≤ 0.7 radius keeps walls tight
+  CostToGo(const PointDistances& distances, double radius, geom::Vec2 goal);
+
+  /// Looks in the direction of `point` first from now on.
+  void focus(geom::Vec2 point);
+  /// m from the middle of p's cell to the goal's; infinity when there is no way.
+  double operator()(geom::Vec2 p);
+  /// Memory in use, bytes.
+  std::size_t bytes() const;
+
+ private:
+  // Costs are whole numbers (12 a straight step, 17 a diagonal one, half as much again where the disc only
+  // just fits), so that equal ways tie exactly and the values are the same in any order. A page holds 16 × 16
+  // cells: 0 = never seen, else 2·cost + closed + 2.
+  using Page = std::vector<std::uint32_t>;
+  struct Cell {
+    std::int32_t column, row;
+  };
+  enum class Ground : std::uint8_t { blocked, tight, open };
+  Ground ground(int column, int row) const;
+  std::uint32_t& mark(int column, int row);
+  std::uint32_t ahead(int column, int row) const;
+  void push(Cell cell, std::uint32_t cost);
+  bool expand_one();
+
+  const PointDistances* distances_;
+  double radius_;
+  double half_diagonal_;
+  Cell focus_{};
+  int page_columns_;
+  std::vector<std::unique_ptr<Page>> pages_;
+  std::vector<std::vector<Cell>> open_;  // by cost + cost ahead
+  std::size_t lowest_ = 0;
+  std::size_t pages_used_ = 0;
+};
+
+}  // namespace seine::search

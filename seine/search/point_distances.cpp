@@ -1,0 +1,53 @@
+#include "seine/search/point_distances.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+namespace seine::search {
+namespace {
+
+constexpr double kMaxCells = 16e6;
+constexpr double kRounding = 1e-6;  // m, more than a float loses on distances of metres
+
+}  // namespace
+
+PointDistances::PointDistances(const world::StaticMap& map, double cell, double cap)
+    : map_(&map), low_(map.bounds().low), cap_(cap) {
+  const geom::Vec2 size = map.bounds().size();
+  cell_ = std::max(cell, std::sqrt(size.x * size.y / kMaxCells));
+  inverse_ = 1.0 / cell_;
+  columns_ = std::max(1, static_cast<int>(std::ceil(size.x * inverse_)));
+  rows_ = std::max(1, static_cast<int>(std::ceil(size.y * inverse_)));
+  const std::size_t count = static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_);
+  value_ = std::make_unique<std::atomic<float>[]>(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    value_[i].store(std::numeric_limits<float>::quiet_NaN(), std::memory_order_relaxed);
+  }
+}
+
+float PointDistances::compute(int column, int row) const {
+  const std::array<geom::Vec2, 1> point{middle(column, row)};
+  return static_cast<float>(map_->nearest(point, cap_).distance - kRounding);
+}
+
+double PointDistances::at(int column, int row) const {
+  auto& value = value_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+                       static_cast<std::size_t>(column)];
+  float distance = value.load(std::memory_order_relaxed);
+  if (std::isnan(distance)) {
+    distance = compute(column, row);
+    value.store(distance, std::memory_order_relaxed);
+  }
+  return static_cast<double>(distance);
+}
+
+PointDistances::Bounds PointDistances::bounds(geom::Vec2 p) const {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const int c = column(p.x), r = row(p.y);
+  if (!inside(c, r)) return {-kInfinity, -kInfinity};
+  const double here = at(c, r), offset = geom::norm(p - middle(c, r));
+  return {here - offset, here > cap_ - 2.0 * kRounding ? kInfinity : here + offset + 2.0 * kRounding};
+}
+
+}  // namespace seine::search
