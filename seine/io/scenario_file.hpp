@@ -1,0 +1,43 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "seine/world/scenario.hpp"
+
+namespace seine::io {
+
+/// Sizes beyond which a scenario is refused.
+struct ScenarioCaps {
+  static constexpr std::size_t kFileBytes = std::size_t{16} << 20;
+  static constexpr std::size_t kRobots = 1000;
+  static constexpr std::size_t kModels = 1000;
+  static constexpr std::size_t kObstacles = 10000;
+  static constexpr std::size_t kPolygonVertices = 5000;
+  static constexpr std::size_t kVertices = 100000;  ///< of all obstacles and motions together
+};
+
+/// Reads a scenario: Seine's own format (docs/scenario.md), a CL-MAPF instance [Wen22] or a TPCAP case [Li22]
+/// (`*.csv`), recognised by content and name. Throws InputError "file:line: what is wrong, what was
+/// expected".
+world::Scenario load_scenario(const std::filesystem::path& path);
+
+/// The same from text.
+/// @param file name for messages; its stem is the default name of the scenario, a `.csv` at its end makes it
+/// a TPCAP case
+/// @param folder where the paths in it start
+world::Scenario parse_scenario(std::string_view text, const std::string& file,
+                               const std::filesystem::path& folder);
+
+/// Writes Seine's own format; load_scenario gives back an equal scenario, bit by bit. A map goes into files
+/// beside it
+/// (`<stem>-map.yaml`, `<stem>-map.pgm`). Throws InputError when the scenario cannot be expressed or the file
+/// cannot be written.
+void save_scenario(const world::Scenario& scenario, const std::filesystem::path& path);
+
+/// The text save_scenario writes.
+/// @param map_file what `world: map:` shall name; empty when the scenario has no map
+std::string scenario_text(const world::Scenario& scenario, const std::string& map_file = "");
+
+}  // namespace seine::io

@@ -1,0 +1,139 @@
+#include "seine/io/file_bytes.hpp"
+#include "seine/io/map_file.hpp"
+#include "seine/io/message.hpp"
+#include "seine/io/number_text.hpp"
+#include "seine/io/scenario_file.hpp"
+
+namespace seine::io {
+namespace {
+
+using geom::Vec2;
+
+/// A YAML scalar that reads back as exactly this text.
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += c;
+  }
+  return out + "\"";
+}
+
+/// Plain where YAML cannot take it for anything else: letters first, then letters, digits, '-', '_'.
+std::string scalar(const std::string& text) {
+  const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+  const auto inner = [&](char c) { return letter(c) || (c >= '0' && c <= '9') || c == '-' || c == '_'; };
+  bool plain = !text.empty() && letter(text.front());
+  for (const char c : text) plain = plain && inner(c);
+  for (const char* word : {"null", "Null", "NULL", "true", "false", "yes", "no", "on", "off"})
+    plain = plain && text != word;
+  return plain ? text : quoted(text);
+}
+
+std::string point_text(Vec2 p) {
+  return joined("[", number_text(p.x), ", ", number_text(p.y), "]");
+}
+
+std::string polygon_text(const std::vector<Vec2>& polygon) {
+  std::string out = "[";
+  for (const Vec2 p : polygon) out += (out.size() > 1 ? ", " : "") + point_text(p);
+  return out + "]";
+}
+
+std::string pose_text(const geom::Pose2& pose) {
+  return joined("x: ", number_text(pose.x), ", y: ", number_text(pose.y),
+                ", heading: ", number_text(pose.heading));
+}
+
+std::string footprint_text(const std::vector<Vec2>& footprint) {
+  if (footprint.size() == 4) {
+    const double length = footprint[1].x - footprint[0].x, width = footprint[2].y - footprint[1].y;
+    // Only where the short form gives back the very same bits.
+    if (footprint == vehicle::rectangle_footprint(length, width, -footprint[0].x)) {
+      return joined("{length: ", number_text(length), ", width: ", number_text(width),
+                    ", rear_overhang: ", number_text(-footprint[0].x), "}");
+    }
+  }
+  return joined("{polygon: ", polygon_text(footprint), "}");
+}
+
+std::string model_text(const vehicle::Model& model) {
+  const vehicle::Limits& limits = model.limits;
+  return joined("  ", scalar(model.name), ":\n    footprint: ", footprint_text(model.footprint),
+                "\n    wheelbase: ", number_text(model.wheelbase),
+                "\n    limits: {speed: ", number_text(limits.speed),
+                ", reverse_speed: ", number_text(limits.reverse_speed),
+                ", acceleration: ", number_text(limits.acceleration),
+                ", lateral_acceleration: ", number_text(limits.lateral_acceleration),
+                ", steering: ", number_text(limits.steering),
+                ", steering_rate: ", number_text(limits.steering_rate), "}\n");
+}
+
+std::string shape_text(const world::Obstacle& obstacle) {
+  if (const auto* polygon = std::get_if<std::vector<Vec2>>(&obstacle.shape))
+    return joined("polygon: ", polygon_text(*polygon));
+  world::Circle circle = std::get<world::Circle>(obstacle.shape);
+  if (!obstacle.motion.empty()) {
+    if (!(circle.center == Vec2{})) {
+      throw InputError(obstacle.name +
+                       ": moves about a point that is not its centre, which the format cannot express");
+    }
+    circle.center = obstacle.motion.front().pose.position();
+  }
+  return joined("circle: {center: ", point_text(circle.center), ", radius: ", number_text(circle.radius),
+                "}");
+}
+
+std::string obstacle_text(const world::Obstacle& obstacle, std::size_t number) {
+  std::string out = "    - {";
+  if (obstacle.name != joined("obstacle ", number)) out += joined("name: ", scalar(obstacle.name), ", ");
+  out += shape_text(obstacle);
+  if (obstacle.height != std::numeric_limits<double>::infinity())
+    out += joined(", height: ", number_text(obstacle.height));
+  std::string motion;
+  for (const world::Waypoint& waypoint : obstacle.motion) {
+    motion += (motion.empty() ? "" : ", ") + (joined("{t: ", number_text(waypoint.t))) + ", " +
+              pose_text(waypoint.pose) + "}";
+  }
+  if (!motion.empty()) out += joined(", motion: [", motion, "]");
+  return out + "}\n";
+}
+
+std::string robot_text(const world::Scenario& scenario, const world::Robot& robot) {
+  const std::string& model = scenario.model_of(robot).name;
+  const std::string speed =
+      robot.start_speed != 0.0 ? joined(", speed: ", number_text(robot.start_speed)) : "";
+  return joined("  - {name: ", scalar(robot.name),
+                (model != "default" ? joined(", model: ", scalar(model)) : ""), ", start: {",
+                pose_text(robot.start), speed, "}, goal: {", pose_text(robot.goal), "}}\n");
+}
+
+}  // namespace
+
+std::string scenario_text(const world::Scenario& scenario, const std::string& map_file) {
+  const geom::Box& bounds = scenario.bounds;
+  std::string out = joined("seine: 1\nname: ", scalar(scenario.name), "\nworld:\n  bounds: [",
+                           number_text(bounds.low.x), ", ", number_text(bounds.low.y), ", ",
+                           number_text(bounds.high.x), ", ", number_text(bounds.high.y), "]\n");
+  if (!map_file.empty()) out += joined("  map: ", scalar(map_file), "\n");
+  if (!scenario.obstacles.empty()) out += "  obstacles:\n";
+  for (std::size_t i = 0; i < scenario.obstacles.size(); ++i)
+    out += obstacle_text(scenario.obstacles[i], i + 1);
+  out += "models:\n";
+  for (const vehicle::Model& model : scenario.models) out += model_text(model);
+  out += joined("margins: {robot: ", number_text(scenario.margins.robot),
+                ", obstacle: ", number_text(scenario.margins.obstacle), "}\nrobots:\n");
+  for (const world::Robot& robot : scenario.robots) out += robot_text(scenario, robot);
+  return out;
+}
+
+void save_scenario(const world::Scenario& scenario, const std::filesystem::path& path) {
+  std::filesystem::path map_file;
+  if (scenario.map) {
+    map_file = path.stem().string() + "-map.yaml";
+    save_map(*scenario.map, path.parent_path() / map_file);
+  }
+  write_file(path, scenario_text(scenario, map_file.string()));
+}
+
+}  // namespace seine::io

@@ -1,0 +1,190 @@
+#include "seine/io/yaml_reader.hpp"
+
+#include <yaml-cpp/depthguard.h>
+
+#include <algorithm>
+#include <numeric>
+#include <unordered_set>
+
+#include "seine/io/message.hpp"
+#include "seine/io/number_text.hpp"
+
+namespace seine::io {
+namespace {
+
+/// `text` cut to a length that fits a message, control bytes as '?'.
+std::string excerpt(std::string_view text) {
+  std::string shown(text.substr(0, 40));
+  for (char& c : shown) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+  }
+  return shown + (text.size() > 40 ? "..." : "");
+}
+
+/// Number of edits (insert, delete, replace, swap of neighbours) between two words.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
+  std::iota(last.begin(), last.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (a[i - 1] == b[j - 1] ? 0U : 1U)});
+      const bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+      if (swapped) row[j] = std::min(row[j], before[j - 2] + 1);
+    }
+    before = std::exchange(last, row);
+  }
+  return last[b.size()];
+}
+
+std::string range_text(Range range) {
+  return joined("from ", number_text(range.low), " to ", number_text(range.high));
+}
+
+}  // namespace
+
+std::string did_you_mean(std::string_view word, const std::vector<std::string_view>& known) {
+  if (word.size() > 40) return "";
+  std::string_view best;
+  std::size_t least = std::max<std::size_t>(1, word.size() / 3) + 1;
+  for (const std::string_view candidate : known) {
+    const std::size_t distance = edit_distance(word, candidate);
+    if (distance < least) least = distance, best = candidate;
+  }
+  return best.empty() ? "" : joined(": did you mean '", best, "'?");
+}
+
+YamlValue YamlValue::parse(std::string_view text, const std::string& file) {
+  try {
+    const std::vector<YAML::Node> documents = YAML::LoadAll(std::string(text));
+    if (documents.empty() || documents.front().IsNull()) throw complaint(file, 1, "is empty, expected YAML");
+    if (documents.size() > 1) throw complaint(file, 1, "has several YAML documents, expected one");
+    return {documents.front(), std::make_shared<const std::string>(file), "the file"};
+  } catch (const YAML::DeepRecursion& error) {
+    throw complaint(file, error.mark.line + 1, "is nested too deeply");
+  } catch (const YAML::Exception& error) {
+    throw complaint(file, error.mark.line + 1, joined("is not valid YAML: ", excerpt(error.msg)));
+  }
+}
+
+void YamlValue::fail(const std::string& message) const {
+  throw complaint(*file_, node_.Mark().line + 1, what_ + " " + message);
+}
+
+std::string YamlValue::found() const {
+  if (node_.IsScalar()) return joined("'", excerpt(node_.Scalar()), "'");
+  if (node_.IsNull()) return "nothing";
+  return node_.IsSequence() ? "a list" : "a map";
+}
+
+const std::string& YamlValue::scalar(const char* expected) const {
+  if (!node_.IsScalar()) fail(joined("is ", found(), ", expected ", expected));
+  return node_.Scalar();
+}
+
+double YamlValue::number(Range range) const {
+  const std::string& text = scalar("a number");
+  const std::optional<double> value = parse_number(text);
+  if (!value) fail(joined("is ", found(), ", expected a finite number"));
+  if (!(range.low <= *value && *value <= range.high))
+    fail(joined("is ", excerpt(text), ", expected ", range_text(range)));
+  return *value;
+}
+
+double YamlValue::number_or_infinity(Range range) const {
+  if (node_.IsScalar() && (node_.Scalar() == ".inf" || node_.Scalar() == "+.inf")) {
+    return std::numeric_limits<double>::infinity();
+  }
+  return number(range);
+}
+
+long long YamlValue::integer(long long low, long long high) const {
+  const std::optional<long long> value = parse_integer(scalar("a whole number"));
+  if (!value) fail(joined("is ", found(), ", expected a whole number"));
+  if (*value < low || *value > high) {
+    fail(joined("is ", found(), ", expected ", low, " to ", high));
+  }
+  return *value;
+}
+
+std::string YamlValue::text() const {
+  const std::string& value = scalar("a text");
+  if (value.empty()) fail("is empty, expected a text");
+  if (value.size() > 200) fail("is too long, expected at most 200 bytes");
+  for (const char c : value) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
+      fail("has control characters, expected plain text");
+  }
+  return value;
+}
+
+std::vector<YamlValue> YamlValue::list(std::size_t least, std::size_t most) const {
+  if (!node_.IsSequence()) fail(joined("is ", found(), ", expected a list"));
+  if (node_.size() < least || node_.size() > most) {
+    fail(joined(
+        "has ", node_.size(), " entries, expected ",
+        (least == most ? std::to_string(least) : std::to_string(least) + " to " + std::to_string(most))));
+  }
+  std::vector<YamlValue> values;
+  values.reserve(node_.size());
+  for (const YAML::Node& entry : node_) {
+    values.push_back({entry, file_, joined("entry ", values.size() + 1, " of ", what_)});
+  }
+  return values;
+}
+
+std::vector<double> YamlValue::numbers(std::size_t count, Range range) const {
+  std::vector<double> result;
+  for (const YamlValue& value : list(count, count)) result.push_back(value.number(range));
+  return result;
+}
+
+YamlMap YamlValue::map(std::initializer_list<std::string_view> keys) const {
+  return read_map(&keys);
+}
+
+YamlMap YamlValue::open_map() const {
+  return read_map(nullptr);
+}
+
+YamlMap YamlValue::read_map(const std::initializer_list<std::string_view>* keys) const {
+  if (!node_.IsMap()) fail(joined("is ", found(), ", expected a map of 'key: value'"));
+  YamlMap map(*this);
+  std::unordered_set<std::string> seen;
+  for (const auto& entry : node_) {
+    const YamlValue key(entry.first, file_, joined("a key of ", what_));
+    const std::string name = key.scalar("a text");
+    if (keys != nullptr && std::find(keys->begin(), keys->end(), name) == keys->end()) {
+      throw complaint(*file_, entry.first.Mark().line + 1,
+                      joined("unknown key '", excerpt(name), "' in ", what_, did_you_mean(name, {*keys})));
+    }
+    if (!seen.insert(name).second) {
+      throw complaint(*file_, entry.first.Mark().line + 1,
+                      joined("key '", excerpt(name), "' stands twice in ", what_));
+    }
+    const bool top = what_ == "the file";
+    map.entries_.emplace_back(
+        name,
+        YamlValue(entry.second, file_, joined("'", excerpt(name), "'", (top ? "" : joined(" of ", what_)))));
+  }
+  return map;
+}
+
+std::optional<YamlValue> YamlMap::find(std::string_view key) const {
+  const auto entry =
+      std::find_if(entries_.begin(), entries_.end(), [&](const auto& e) { return e.first == key; });
+  return entry == entries_.end() ? std::nullopt : std::optional(entry->second);
+}
+
+YamlValue YamlMap::at(std::string_view key) const {
+  std::optional<YamlValue> value = find(key);
+  if (!value) self_.fail(joined("has no '", key, "', which is required"));
+  return *value;
+}
+
+double YamlMap::number(std::string_view key, Range range, double otherwise) const {
+  const std::optional<YamlValue> value = find(key);
+  return value ? value->number(range) : otherwise;
+}
+
+}  // namespace seine::io

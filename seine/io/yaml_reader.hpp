@@ -1,0 +1,88 @@
+#pragma once
+
+#include <yaml-cpp/yaml.h>
+
+#include <initializer_list>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace seine::io {
+
+class YamlMap;
+
+/// A closed interval a number must lie in.
+struct Range {
+  double low;
+  double high;
+};
+
+/// A value in a YAML file that knows where it stands: every complaint names the file, the line and what the
+/// value is.
+class YamlValue {
+ public:
+  /// Parses one document. Throws InputError on a syntax error, more than one document or an empty one.
+  /// @param file name for messages
+  static YamlValue parse(std::string_view text, const std::string& file);
+
+  /// Throws InputError `file:line: <what> <message>`.
+  [[noreturn]] void fail(const std::string& message) const;
+
+  bool is_null() const { return node_.IsNull(); }
+  bool is_map() const { return node_.IsMap(); }
+  bool is_list() const { return node_.IsSequence(); }
+  const std::string& what() const { return what_; }
+
+  double number(Range range) const;
+  /// A number in the range, or `.inf` for "no limit".
+  double number_or_infinity(Range range) const;
+  long long integer(long long low, long long high) const;
+  /// Non-empty, at most 200 bytes, no control characters.
+  std::string text() const;
+  std::vector<YamlValue> list(std::size_t least, std::size_t most) const;
+  /// `count` numbers, as in [x, y].
+  std::vector<double> numbers(std::size_t count, Range range) const;
+  /// A map whose keys are all among `keys` and occur once. Anything else fails with the nearest key as a
+  /// hint.
+  YamlMap map(std::initializer_list<std::string_view> keys) const;
+  /// A map with any keys, each once, in the order of the file.
+  YamlMap open_map() const;
+
+ private:
+  friend class YamlMap;
+  YamlValue(YAML::Node node, std::shared_ptr<const std::string> file, std::string what)
+      : node_(std::move(node)), file_(std::move(file)), what_(std::move(what)) {}
+  YamlMap read_map(const std::initializer_list<std::string_view>* keys) const;
+  const std::string& scalar(const char* expected) const;
+  std::string found() const;
+
+  YAML::Node node_;
+  std::shared_ptr<const std::string> file_;
+  std::string what_;  ///< "goal of robot 'car0'": how messages call it
+};
+
+/// The entries of a YAML map.
+class YamlMap {
+ public:
+  std::optional<YamlValue> find(std::string_view key) const;
+  bool has(std::string_view key) const { return find(key).has_value(); }
+  /// Fails when it is missing.
+  YamlValue at(std::string_view key) const;
+  double number(std::string_view key, Range range, double otherwise) const;
+  const std::vector<std::pair<std::string, YamlValue>>& entries() const { return entries_; }
+  const YamlValue& self() const { return self_; }
+
+ private:
+  friend class YamlValue;
+  explicit YamlMap(YamlValue self) : self_(std::move(self)) {}
+  YamlValue self_;
+  std::vector<std::pair<std::string, YamlValue>> entries_;
+};
+
+/// " — did you mean 'x'?" for the word nearest to `word`, or nothing when none is near.
+std::string did_you_mean(std::string_view word, const std::vector<std::string_view>& known);
+
+}  // namespace seine::io
