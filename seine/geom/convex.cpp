@@ -1,6 +1,7 @@
 #include "seine/geom/convex.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <limits>
 
@@ -113,6 +114,76 @@ bool flat_and_apart(std::span<const Vec2> a, std::span<const Vec2> b) {
   return beyond(a, b) || beyond(b, a);
 }
 
+// Small polygons with their loops made of fixed length and without branches, so that they vectorise: the last vertex repeated up
+// to N, coordinates apart. A repeated vertex is an edge of length 0: its gap is −∞ and its points are the vertex.
+template <std::size_t N>
+struct Packed {
+  std::array<double, N + 1> x, y;
+  std::array<double, N> along_x, along_y, inverse_squared;
+
+  explicit Packed(std::span<const Vec2> polygon) {
+    for (std::size_t i = 0; i < N; ++i) {
+      const Vec2 v = polygon[std::min(i, polygon.size() - 1)];
+      x[i] = v.x, y[i] = v.y;
+    }
+    x[N] = x[0], y[N] = y[0];
+    for (std::size_t i = 0; i < N; ++i) {
+      along_x[i] = x[i + 1] - x[i];
+      along_y[i] = y[i + 1] - y[i];
+      const double squared = along_x[i] * along_x[i] + along_y[i] * along_y[i];
+      inverse_squared[i] = squared > 0.0 ? 1.0 / squared : 0.0;
+    }
+  }
+};
+
+template <std::size_t N, std::size_t M>
+double packed_gap(const Packed<N>& a, const Packed<M>& b) {
+  std::array<double, N> side;  // how far left of the edge's line the leftmost vertex of b is, times the edge's length
+  side.fill(-kInfinity);
+  for (std::size_t j = 0; j < M; ++j) {
+    for (std::size_t i = 0; i < N; ++i) {
+      const double z = a.along_x[i] * (b.y[j] - a.y[i]) - a.along_y[i] * (b.x[j] - a.x[i]);
+      side[i] = z > side[i] ? z : side[i];
+    }
+  }
+  double gap = -kInfinity;
+  for (std::size_t i = 0; i < N; ++i) {
+    const double edge_gap = a.inverse_squared[i] > 0.0 ? -side[i] * std::sqrt(a.inverse_squared[i]) : -kInfinity;
+    gap = edge_gap > gap ? edge_gap : gap;
+  }
+  return gap;
+}
+
+// The least squared distance of a vertex of b to an edge of a.
+template <std::size_t N, std::size_t M>
+double packed_squared(const Packed<N>& a, const Packed<M>& b) {
+  std::array<double, N> least;
+  least.fill(kInfinity);
+  for (std::size_t j = 0; j < M; ++j) {
+    for (std::size_t i = 0; i < N; ++i) {
+      const double dx = b.x[j] - a.x[i];
+      const double dy = b.y[j] - a.y[i];
+      const double t = (dx * a.along_x[i] + dy * a.along_y[i]) * a.inverse_squared[i];
+      const double low = t > 0.0 ? t : 0.0;
+      const double at = low < 1.0 ? low : 1.0;
+      const double ex = dx - at * a.along_x[i];
+      const double ey = dy - at * a.along_y[i];
+      const double squared = ex * ex + ey * ey;
+      least[i] = squared < least[i] ? squared : least[i];
+    }
+  }
+  return *std::min_element(least.begin(), least.end());
+}
+
+template <std::size_t N, std::size_t M>
+double packed_distance(std::span<const Vec2> first, std::span<const Vec2> second, double enough) {
+  const Packed<N> a(first);
+  const Packed<M> b(second);
+  const double gap = std::max(packed_gap(a, b), packed_gap(b, a));
+  if (gap <= 0.0 || gap >= enough) return gap;
+  return std::sqrt(std::min(packed_squared(a, b), packed_squared(b, a)));
+}
+
 Separation apart(std::span<const Vec2> a, std::span<const Vec2> b, Vec2 fallback_normal) {
   const Pair pair = nearest_pair(a, b);
   const double d = std::sqrt(pair.squared);
@@ -179,16 +250,19 @@ Separation separation(const Convex& a, const Convex& b) {
   return result;
 }
 
-double distance(std::span<const Vec2> a, std::span<const Vec2> b) {
-  const Face of_a = widest_face(a, b);
-  const Face of_b = widest_face(b, a);
-  const bool by_a = of_a.gap >= of_b.gap;
-  const Face& face = by_a ? of_a : of_b;
-  const bool flat = a.size() < 3 && b.size() < 3;
-  if (flat && (face.gap >= -kTie || flat_and_apart(a, b))) return std::sqrt(nearest_pair(a, b).squared);
-  if (face.gap <= 0.0) return face.gap == -kInfinity ? std::sqrt(nearest_pair(a, b).squared) : face.gap;
-  if ((by_a ? foot_on(a, b, face) : foot_on(b, a, face)).inside) return face.gap;
-  return std::sqrt(nearest_pair(a, b).squared);
+double distance(std::span<const Vec2> a, std::span<const Vec2> b) { return distance_up_to(a, b, kInfinity); }
+
+double distance_up_to(std::span<const Vec2> a, std::span<const Vec2> b, double enough) {
+  if (a.size() < 3 && b.size() < 3) {
+    const double gap = std::max(widest_face(a, b).gap, widest_face(b, a).gap);
+    return gap >= -kTie || flat_and_apart(a, b) ? std::sqrt(nearest_pair(a, b).squared) : gap;
+  }
+  if (a.size() <= 4 && b.size() <= 4) return packed_distance<4, 4>(a, b, enough);
+  if (a.size() <= 4 && b.size() <= 8) return packed_distance<4, 8>(a, b, enough);
+  if (a.size() <= 8 && b.size() <= 4) return packed_distance<4, 8>(b, a, enough);
+  if (a.size() <= 8 && b.size() <= 8) return packed_distance<8, 8>(a, b, enough);
+  const double gap = std::max(widest_face(a, b).gap, widest_face(b, a).gap);
+  return gap <= 0.0 || gap >= enough ? gap : std::sqrt(nearest_pair(a, b).squared);
 }
 
 }  // namespace seine::geom

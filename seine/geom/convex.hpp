@@ -40,5 +40,7 @@ Separation separation(std::span<const Vec2> a, std::span<const Vec2> b);
 Separation separation(const Convex& a, const Convex& b);
 /// separation(a, b).distance without the witnesses, faster.
 double distance(std::span<const Vec2> a, std::span<const Vec2> b);
+/// The distance where it is less than `enough`, otherwise any lower bound of it that is not: faster still.
+double distance_up_to(std::span<const Vec2> a, std::span<const Vec2> b, double enough);
 
 }  // namespace seine::geom

@@ -10,50 +10,13 @@
 namespace seine::geom {
 namespace {
 
-// Squares of this many cells still fit the 16-bit integers of the transform.
-constexpr int kMaxCells = 180;
+// The sum of two squares of this many cells still fits the 16-bit integers of the transform.
+constexpr int kMaxCells = 127;
 // A node-to-piece distance costs about half of what the transform costs a node, so up to four a node are worth being exact.
 constexpr double kExactPerNode = 4.0;
 constexpr double kBandPerNode = 1.5;
-// Taken off before a distance becomes a float, so that rounding never raises it.
-constexpr double kRounding = 1e-6;  // m
-
-// The signed distance of points to one convex piece, with what can be computed once per piece.
-class PointDistance {
- public:
-  explicit PointDistance(const Convex& piece) : core_(piece.core), radius_(piece.radius) {
-    for (std::size_t i = 0; core_.size() > 1 && i < core_.size(); ++i) {
-      const Vec2 along = core_[i + 1 == core_.size() ? 0 : i + 1] - core_[i];
-      const double length = norm(along);
-      faces_.push_back({core_[i], along / length, length});
-    }
-  }
-
-  double operator()(Vec2 p) const {
-    double widest = -std::numeric_limits<double>::infinity();
-    double nearest2 = std::numeric_limits<double>::infinity();
-    for (const Face& face : faces_) {
-      const Vec2 from = p - face.tail;
-      const double gap = -cross(face.along, from);
-      widest = std::max(widest, gap);
-      if (gap < 0.0) continue;
-      const double past = dot(face.along, from);
-      const double aside = past < 0.0 ? past : std::max(past - face.length, 0.0);
-      nearest2 = std::min(nearest2, gap * gap + aside * aside);
-    }
-    if (faces_.empty()) nearest2 = squared_norm(p - core_.front());
-    return (widest < 0.0 && !faces_.empty() ? widest : std::sqrt(nearest2)) - radius_;
-  }
-
- private:
-  struct Face {
-    Vec2 tail, along;
-    double length;
-  };
-  std::span<const Vec2> core_;
-  double radius_;
-  std::vector<Face> faces_;
-};
+// Taken off per metre of the coordinates involved, so that rounding to single precision never raises a distance.
+constexpr double kRounding = 1e-6;
 
 struct Window {
   int column_low, column_high, row_low, row_high;
@@ -88,22 +51,94 @@ double choose_band(std::span<const Convex* const> pieces, std::span<const Box> b
   return std::min(field.cap, std::max(band, field.cell));
 }
 
-void write_band(const Convex& piece, const Box& box, double band, DistanceField& field) {
-  const Window window = nodes_within(field, box.inflated(band));
-  const PointDistance distance_to(piece);
-  for (int row = window.row_low; row <= window.row_high; ++row) {
-    const double y = field.origin.y + row * field.cell;
-    const double dy = std::max({box.low.y - y, y - box.high.y, 0.0});
-    // Only the part of the row within `band` of the box.
-    const double reach = std::sqrt(std::max(band * band - dy * dy, 0.0));
-    const Window part = nodes_within(field, {{box.low.x - reach, y}, {box.high.x + reach, y}});
-    float* out = field.values.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(field.width);
-    for (int column = part.column_low; column <= part.column_high; ++column) {
-      const double d = distance_to({field.origin.x + column * field.cell, y});
-      if (d < band) out[column] = std::min(out[column], static_cast<float>(d - kRounding));
+// Writes the signed distance to one piece after another into the nodes that are nearer than `band` to it. Rows are done a face at a
+// time in single precision, relative to the piece, so that the loops vectorise.
+class BandWriter {
+ public:
+  BandWriter(DistanceField& field, double band) : field_(field), band_(band) {
+    const std::size_t width = static_cast<std::size_t>(field.width);
+    widest_.resize(width);
+    nearest_.resize(width);
+    ramp_.resize(width);
+    for (std::size_t i = 0; i < width; ++i) ramp_[i] = static_cast<float>(static_cast<double>(i) * field.cell);
+  }
+
+  void write(const Convex& piece, const Box& box) {
+    faces_.clear();
+    const std::vector<Vec2>& core = piece.core;
+    for (std::size_t i = 0; i < core.size(); ++i) {
+      const Vec2 along = core[i + 1 == core.size() ? 0 : i + 1] - core[i];
+      const double length = norm(along);
+      faces_.push_back({core[i], length > 0.0 ? along / length : Vec2{1.0, 0.0}, length});
+    }
+    inside_possible_ = core.size() > 2;
+    radius_ = static_cast<float>(piece.radius);
+    const Vec2 size = box.size();
+    lowered_ = static_cast<float>(kRounding * (1.0 + size.x + size.y + band_));
+    const Window window = nodes_within(field_, box.inflated(band_));
+    for (int row = window.row_low; row <= window.row_high; ++row) {
+      write_row(window.column_low, window.column_high, row);
     }
   }
-}
+
+ private:
+  struct Face {
+    Vec2 tail, along;
+    double length;
+  };
+
+  void write_row(int column_low, int column_high, int row) {
+    if (column_high < column_low) return;
+    const std::size_t count = static_cast<std::size_t>(column_high - column_low + 1);
+    std::fill_n(widest_.begin(), count, -kFar);
+    std::fill_n(nearest_.begin(), count, kFar);
+    const Vec2 first{field_.origin.x + column_low * field_.cell, field_.origin.y + row * field_.cell};
+    for (const Face& face : faces_) add_face(face, first - face.tail, count);
+    const std::size_t start = static_cast<std::size_t>(row) * static_cast<std::size_t>(field_.width);
+    float* out = field_.values.data() + start + static_cast<std::size_t>(column_low);
+    const float* widest = widest_.data();
+    const float* nearest = nearest_.data();
+    const float limit = static_cast<float>(band_);
+    for (std::size_t i = 0; i < count; ++i) {
+      const float outside = std::sqrt(nearest[i]);
+      const float core = inside_possible_ && widest[i] < 0.0f ? widest[i] : outside;
+      const float d = core - radius_ - lowered_;
+      out[i] = d < out[i] && d < limit ? d : out[i];
+    }
+  }
+
+  // `from`: the row's first node seen from the face's tail.
+  void add_face(const Face& face, Vec2 from, std::size_t count) {
+    const float gap_start = static_cast<float>(-cross(face.along, from));
+    const float gap_step = static_cast<float>(face.along.y);
+    const float past_start = static_cast<float>(dot(face.along, from));
+    const float past_step = static_cast<float>(face.along.x);
+    const float length = static_cast<float>(face.length);
+    const float hidden = inside_possible_ ? 0.0f : -kFar;  // a face that looks away is not the nearest, unless it is all there is
+    float* widest = widest_.data();
+    float* nearest = nearest_.data();
+    const float* ramp = ramp_.data();
+    for (std::size_t i = 0; i < count; ++i) {
+      const float gap = gap_start + gap_step * ramp[i];
+      const float past = past_start + past_step * ramp[i];
+      const float low = past > 0.0f ? past : 0.0f;
+      const float aside = past - (low < length ? low : length);
+      const float squared = gap * gap + aside * aside;
+      const float seen = gap < hidden ? kFar : squared;
+      widest[i] = gap > widest[i] ? gap : widest[i];
+      nearest[i] = seen < nearest[i] ? seen : nearest[i];
+    }
+  }
+
+  static constexpr float kFar = 1e30f;
+  DistanceField& field_;
+  double band_;
+  std::vector<Face> faces_;
+  bool inside_possible_ = false;
+  float radius_ = 0.0f;
+  float lowered_ = 0.0f;
+  std::vector<float> widest_, nearest_, ramp_;
+};
 
 // Squared distance in cells, at most limit², of each node to the nearest one whose value is below `seed`; first along the columns,
 // then along the rows [Saito94]. Loops run along rows so that they vectorise.
@@ -122,24 +157,23 @@ std::vector<std::int16_t> transform(const DistanceField& field, float seed, int 
   for (std::size_t row = height - 1; row-- > 0;) carry((row + 1) * width, row * width);
   for (std::int16_t& value : up) value = static_cast<std::int16_t>(value * value);
 
-  std::vector<std::int16_t> result = up;
+  // A border of far nodes to either side saves the loop its ends.
+  const std::size_t border = static_cast<std::size_t>(limit);
+  std::vector<std::int16_t> line(width + 2 * border, static_cast<std::int16_t>(limit * limit));
   for (std::size_t row = 0; row < height; ++row) {
-    const std::int16_t* in = up.data() + row * width;
-    std::int16_t* out = result.data() + row * width;
-    const std::size_t last = std::min(static_cast<std::size_t>(limit), width);
-    for (std::size_t shift = 1; shift < last; ++shift) {
-      // Saturates instead of overflowing: sums are below 2·180², which 16 bits unsigned hold.
-      const std::uint16_t cost = static_cast<std::uint16_t>(shift * shift);
-      const std::uint16_t ceiling = static_cast<std::uint16_t>(limit * limit);
-      const auto offer = [cost, ceiling](std::int16_t value) {
-        const std::uint16_t sum = static_cast<std::uint16_t>(static_cast<std::uint16_t>(value) + cost);
-        return static_cast<std::int16_t>(std::min(sum, ceiling));
-      };
-      for (std::size_t i = 0; i + shift < width; ++i) out[i] = std::min(out[i], offer(in[i + shift]));
-      for (std::size_t i = shift; i < width; ++i) out[i] = std::min(out[i], offer(in[i - shift]));
+    std::int16_t* out = up.data() + row * width;
+    std::copy_n(out, width, line.data() + border);
+    for (std::size_t shift = 1; shift < border; ++shift) {
+      const std::int16_t cost = static_cast<std::int16_t>(shift * shift);
+      const std::int16_t* left = line.data() + border - shift;
+      const std::int16_t* right = line.data() + border + shift;
+      for (std::size_t i = 0; i < width; ++i) {
+        const std::int16_t nearer = static_cast<std::int16_t>(std::min(left[i], right[i]) + cost);
+        out[i] = std::min(out[i], nearer);
+      }
     }
   }
-  return result;
+  return up;
 }
 
 // What the band has not reached: every obstacle point is within half a diagonal of a seed node.
@@ -150,7 +184,7 @@ void fill_far(double band, DistanceField& field) {
   std::vector<float> distance(static_cast<std::size_t>(limit * limit) + 1);
   for (std::size_t i = 0; i < distance.size(); ++i) {
     const double d = field.cell * std::sqrt(static_cast<double>(i)) - half_diagonal;
-    distance[i] = static_cast<float>(std::clamp(d, band, field.cap) - kRounding);
+    distance[i] = static_cast<float>(std::clamp(d, band, field.cap) - kRounding * (1.0 + field.cap));
   }
   const float untouched = static_cast<float>(field.cap);
   for (std::size_t i = 0; i < field.values.size(); ++i) {
@@ -175,7 +209,8 @@ DistanceField distance_field(std::span<const Convex* const> pieces, const Box& e
   boxes.reserve(pieces.size());
   for (const Convex* piece : pieces) boxes.push_back(piece->box());
   const double band = choose_band(pieces, boxes, field);
-  for (std::size_t i = 0; i < pieces.size(); ++i) write_band(*pieces[i], boxes[i], band, field);
+  BandWriter writer(field, band);
+  for (std::size_t i = 0; i < pieces.size(); ++i) writer.write(*pieces[i], boxes[i]);
   if (band < field.cap) fill_far(band, field);
   return field;
 }

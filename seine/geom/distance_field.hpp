@@ -10,7 +10,7 @@
 namespace seine::geom {
 
 /// How far the nearest of many convex pieces is, tabulated at the nodes of a square grid. A node's value never exceeds the true
-/// signed distance capped at `cap`; close to pieces it equals it (to 2 µm), further away it may fall short by up to a cell's
+/// signed distance capped at `cap`; close to pieces it equals it (to some µm), further away it may fall short by up to a cell's
 /// diagonal. Nothing is known about what is not a piece: bounds are the caller's business.
 struct DistanceField {
   Vec2 origin;                ///< node (0, 0)
@@ -36,7 +36,7 @@ struct DistanceField {
   double interpolate(const Place& at) const;
 };
 
-/// The field of `pieces` over `extent`, nodes `cell` (m) apart, values up to `cap` (m; at most 180 cells, more is reduced to that).
+/// The field of `pieces` over `extent`, nodes `cell` (m) apart, values up to `cap` (m; at most 126 cells, more is reduced to that).
 /// Exact up to the cap when the pieces are few; else exact in a band about each, and beyond it a Euclidean distance transform of the
 /// nodes that are less than half a cell's diagonal from a piece.
 DistanceField distance_field(std::span<const Convex* const> pieces, const Box& extent, double cell, double cap);

@@ -1,6 +1,5 @@
 #include "seine/geom/grid.hpp"
 
-#include <array>
 #include <cstddef>
 
 namespace seine::geom {
@@ -95,19 +94,18 @@ std::vector<Convex> boundary_rectangles(const OccupancyGrid& grid) {
   const std::size_t height = static_cast<std::size_t>(grid.height);
   const std::vector<std::uint8_t> boundary = boundary_cells(grid);
   Grower grower(boundary, width, height);
+  // The grid's axes in the world, one cell long.
+  const Vec2 across = grid.resolution * grid.origin.direction();
+  const Vec2 up = left_normal(across);
   std::vector<Convex> result;
   for (std::size_t row = 0; row < height; ++row) {
     for (std::size_t column = 0; column < width; ++column) {
       if (!grower.open(column, row)) continue;
       const CellRectangle r = grower.take(column, row);
-      const double x0 = grid.resolution * static_cast<double>(r.column);
-      const double y0 = grid.resolution * static_cast<double>(r.row);
-      const double x1 = grid.resolution * static_cast<double>(r.column + r.columns);
-      const double y1 = grid.resolution * static_cast<double>(r.row + r.rows);
-      const std::array<Vec2, 4> corners{Vec2{x0, y0}, Vec2{x1, y0}, Vec2{x1, y1}, Vec2{x0, y1}};
-      Convex rectangle{std::vector<Vec2>(4), 0.0};
-      place(corners, grid.origin, rectangle.core);
-      result.push_back(std::move(rectangle));
+      const Vec2 corner = grid.origin.position() + static_cast<double>(r.column) * across + static_cast<double>(r.row) * up;
+      const Vec2 wide = static_cast<double>(r.columns) * across;
+      const Vec2 tall = static_cast<double>(r.rows) * up;
+      result.push_back({{corner, corner + wide, corner + wide + tall, corner + tall}, 0.0});
     }
   }
   return result;

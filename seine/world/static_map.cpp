@@ -1,7 +1,6 @@
 #include "seine/world/static_map.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
@@ -199,8 +198,9 @@ StaticMap::Nearest StaticMap::nearest(std::span<const Vec2> polygon, double cap)
   for (double reach = std::min(best, bucket_);; reach = std::min(best, 4.0 * reach)) {
     visit_buckets(box.inflated(std::max(reach, 0.0)), [&](int item) {
       const std::size_t i = static_cast<std::size_t>(item);
-      if (box_gap(box, boxes_[i]) > best) return true;
-      const double d = geom::distance(polygon, pieces_[i].shape.core) - pieces_[i].shape.radius;
+      if (box_gap(box, boxes_[i]) > std::max(best, 0.0)) return true;
+      const geom::Convex& shape = pieces_[i].shape;
+      const double d = geom::distance_up_to(polygon, shape.core, best + shape.radius + kTouch) - shape.radius;
       if (d < best || (d == best && (piece < 0 || item < piece))) best = d, piece = item;
       return true;
     });
@@ -231,7 +231,7 @@ bool StaticMap::piece_clear(std::size_t piece, std::span<const Vec2> polygon, do
     for (const Vec2 p : polygon) least = std::min(least, geom::dot(face.normal, p - face.tail));
     if (least > 0.0 && least >= wanted) return true;
   }
-  return geom::distance(polygon, shape.core) >= wanted;
+  return geom::distance_up_to(polygon, shape.core, wanted) >= wanted;
 }
 
 bool StaticMap::clear(std::span<const Vec2> polygon, double clearance) const {
@@ -251,6 +251,13 @@ std::string StaticMap::describe(int piece) const {
   char text[80];
   std::snprintf(text, sizeof text, "the map at (%.2f, %.2f)", p.box.center().x, p.box.center().y);
   return text;
+}
+
+geom::DistanceField distance_field(const StaticMap& map, double cell, double cap) {
+  std::vector<const geom::Convex*> shapes;
+  shapes.reserve(map.pieces().size());
+  for (const StaticMap::Piece& piece : map.pieces()) shapes.push_back(&piece.shape);
+  return geom::distance_field(std::span<const geom::Convex* const>(shapes), map.bounds(), cell, cap);
 }
 
 }  // namespace seine::world

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "seine/geom/convex.hpp"
+#include "seine/geom/distance_field.hpp"
 #include "seine/world/scenario.hpp"
 
 namespace seine::world {
@@ -101,5 +102,8 @@ void StaticMap::for_each_near(const geom::Box& box, Visit&& visit) const {
   const Found found(*this, box);
   for (const int index : found) visit(pieces_[static_cast<std::size_t>(index)]);
 }
+
+/// The distance field of all pieces over the bounds (which it does not contain: they are easier asked directly).
+geom::DistanceField distance_field(const StaticMap& map, double cell, double cap);
 
 }  // namespace seine::world
