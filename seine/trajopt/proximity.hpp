@@ -1,0 +1,63 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "seine/geom/convex.hpp"
+#include "seine/trajopt/robot_problem.hpp"
+
+namespace seine::trajopt {
+
+/// A convex body whose motion is given: a moving obstacle, or a car that is not being planned. One placed polygon a tick, SI units on
+/// input; after the last tick it stays where it is.
+struct Body {
+  std::vector<geom::Vec2> polygons;  ///< ticks × vertices
+  int vertices = 0;
+  double radius = 0.0;               ///< of its rounding
+  double clearance = 0.0;            ///< to keep to it
+  bool robot = false;                ///< a car that is not being planned
+};
+
+/// A car's shape as the pair term needs it, in units.
+struct Shape {
+  std::vector<geom::Vec2> footprint;
+  bool rectangle = false;            ///< symmetric about the x axis: the closed form serves
+  double offset = 0.0, half_length = 0.0, half_width = 0.0;  ///< of the bounding rectangle
+  double reach = 0.0;                ///< radius of the circle about the rectangle's middle
+};
+Shape shape_of(std::span<const geom::Vec2> footprint, double unit_length);
+
+/// Distances between cars, and between cars and bodies, at the ticks of the common clock; only where they are near. Partitioned by ticks, so that
+/// threads never write to the same place and sums do not depend on their number.
+class Proximity {
+ public:
+  struct Near {
+    int a;
+    int b;  ///< another car, or −1 − body
+  };
+
+  Proximity(std::vector<Shape> shapes, std::vector<Body> bodies, std::vector<double> pair_extra, double clearance, int ticks);
+
+  /// Finds who is near whom at which tick, with `skin` to spare. @param states cars × ticks
+  void rebuild(std::span<const ClockState> states, double skin);
+  /// Ticks at which a car is near anything, ascending.
+  const std::vector<int>& ticks_of(int car) const { return needed_[static_cast<std::size_t>(car)]; }
+
+  static constexpr int kChunks = 16;
+  /// Cost of all distances in one chunk of ticks; writes ∂J/∂ of both cars into `states`.
+  double evaluate(int chunk, std::span<ClockState> states, double weight, double knee) const;
+
+ private:
+  double one(const Near& near, int tick, std::span<ClockState> states, double weight, double knee) const;
+  double clearance_of(int a, int b) const;
+
+  std::vector<Shape> shapes_;
+  std::vector<Body> bodies_;
+  std::vector<double> pair_extra_;  // cars × cars: what repair rounds add to a pair's clearance; may be empty
+  double clearance_;
+  int ticks_;
+  std::vector<std::vector<Near>> near_;    // per tick
+  std::vector<std::vector<int>> needed_;   // per car
+};
+
+}  // namespace seine::trajopt
