@@ -13,6 +13,9 @@
 
 namespace seine::search {
 
+/// Points of a planned path are at most this many car lengths apart.
+inline constexpr double kPathSpacing = 0.06;
+
 /// A place that costs extra to drive through: `weight` (s per metre-equivalent, added to the path length) inside `radius`, fading to 0 at its edge.
 struct Bump {
   geom::Vec2 center;

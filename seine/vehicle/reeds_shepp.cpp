@@ -71,7 +71,7 @@ double Best::cost_of(std::span<const double> lengths) const {
     const int now = length > 0.0 ? 1 : -1;
     if (gear == -now) cost += costs_.gear_change;
     gear = now;
-    cost += radius_ * (now > 0 ? length : -costs_.reverse * length);
+    cost += radius_ * (now > 0 ? costs_.forward * length : -costs_.reverse * length);
   }
   return cost;
 }

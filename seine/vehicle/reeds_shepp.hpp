@@ -12,6 +12,7 @@ namespace seine::vehicle {
 struct DrivingCosts {
   double reverse = 1.0;      ///< factor on the length driven backwards, > 0
   double gear_change = 0.0;  ///< m, for each change between forwards and backwards
+  double forward = 1.0;      ///< factor on the length driven forwards, > 0
 };
 
 /// A curve of at most five arcs of curvature 0 or ±1/radius.

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <optional>
+
+#include "seine/base/deadline.hpp"
+#include "seine/search/cost_to_go.hpp"
+#include "seine/search/motion.hpp"
+#include "seine/search/route.hpp"
+
+namespace seine::search {
+
+/// How finely Hybrid A* [Dolgov10] looks. Lengths in metres; docs/front-end-paths.md has the measurements
+/// behind the numbers.
+struct LatticeSettings {
+  double step = 0.8;   ///< m driven per move
+  double cell = 0.45;  ///< m, side of a position bin
+  int headings = 24;   ///< heading bins
+  int forward = 5;     ///< curvatures tried forwards (odd)
+  int backward = 3;    ///< and backwards
+  double heuristic_weight = 1.3;
+  int max_expansions = 2000;
+};
+
+/// What a search works with.
+struct LatticeProblem {
+  geom::Pose2 start;
+  geom::Pose2 goal;
+  const FootprintChecker* checker = nullptr;
+  CostToGo* to_go = nullptr;  ///< of the disc around `reference`, to where that is at the goal
+  geom::Vec2 reference;       ///< body frame
+  RouteCosts costs;           ///< costs.radius is the turning radius used
+  Deadline deadline;
+};
+
+struct LatticeResult {
+  std::optional<Route> route;
+  int expansions = 0;
+  bool unreachable = false;  ///< proved: not even a disc inside the footprint has a way
+};
+
+/// Hybrid A* with a Reeds-Shepp shot from every expanded node. Deterministic; ties go to the node made first.
+LatticeResult search_lattice(const LatticeProblem& problem, const LatticeSettings& settings);
+
+}  // namespace seine::search

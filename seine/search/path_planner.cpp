@@ -1,0 +1,222 @@
+#include "seine/search/path_planner.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+#include <utility>
+
+#include "seine/geom/convex.hpp"
+#include "seine/search/hybrid_astar.hpp"
+
+namespace seine::search {
+namespace {
+
+// All lengths scale with the car. Measured reasons: docs/front-end-paths.md.
+constexpr double kSlack = 0.025;       // car lengths, on top of the clearance while searching
+constexpr double kEaseRadius = 1.5;    // car lengths around a tight start or goal in which it has less slack
+constexpr double kShortStretch = 0.3;  // car lengths: stretches in one gear below this are avoided
+constexpr double kTouch = 1e-9;        // m: rounding of a start that stands exactly at its clearance
+constexpr double kDiscCell =
+    0.35;  // of the car's width: the side of a heuristic cell, small enough that walls stay tight
+
+constexpr double kReverse = 1.5;          // what a metre backwards costs
+constexpr double kSteeringChange = 0.05;  // turning radii, from straight to the tightest turn
+
+/// One rung of the ladder of searches: from coarse and quick to fine and patient.
+struct Rung {
+  double radius;      // of the smallest turning radius
+  double step, cell;  // turning radii
+  int headings;
+  int forward, backward;
+  double slack;        // of the full slack
+  double gear_change;  // turning radii
+  double share;        // of the expansions allowed
+  bool from_tighter_end;
+};
+constexpr Rung kLadder[] = {
+    {1.1, 0.8, 0.45, 24, 5, 3, 1.0, 2.0, 0.1, false},
+    {1.02, 0.3, 0.15, 48, 5, 5, 0.2, 1.0, 0.3, true},
+    {1.0, 0.15, 0.08, 72, 5, 5, 0.0, 0.5, 1.0, true},
+};
+
+/// Costs to go that were worked out before, for whoever comes with the same goal; each is lent to one search
+/// at a time.
+class CostToGoCache {
+ public:
+  std::unique_ptr<CostToGo> borrow(const PointDistances& distances, double radius, geom::Vec2 goal) {
+    const Key key{distances.column(goal.x), distances.row(goal.y), radius};
+    {
+      const std::lock_guard lock(mutex_);
+      const auto found =
+          std::find_if(kept_.rbegin(), kept_.rend(), [&](const auto& entry) { return entry.first == key; });
+      if (found != kept_.rend()) {
+        auto lent = std::move(found->second);
+        kept_.erase(std::next(found).base());
+        return lent;
+      }
+    }
+    return std::make_unique<CostToGo>(distances, radius, goal);
+  }
+  void give_back(const PointDistances& distances, double radius, geom::Vec2 goal,
+                 std::unique_ptr<CostToGo> used) {
+    constexpr std::size_t kMaxKept = 256, kMaxBytes = 64u << 20;
+    const std::lock_guard lock(mutex_);
+    kept_.emplace_back(Key{distances.column(goal.x), distances.row(goal.y), radius}, std::move(used));
+    std::size_t bytes = 0, first = kept_.size();
+    while (first > 0 && kept_.size() - first < kMaxKept && bytes < kMaxBytes)
+      bytes += kept_[--first].second->bytes();
+    kept_.erase(kept_.begin(), kept_.begin() + static_cast<std::ptrdiff_t>(first));
+  }
+
+ private:
+  struct Key {
+    int column, row;
+    double radius;
+    friend bool operator==(const Key&, const Key&) = default;
+  };
+  std::mutex mutex_;
+  std::vector<std::pair<Key, std::unique_ptr<CostToGo>>> kept_;  // the longest unused first
+};
+
+/// A borrowed cost to go that finds its way back.
+class Loan {
+ public:
+  Loan(CostToGoCache& cache, const PointDistances& distances, double radius, geom::Vec2 goal)
+      : cache_(cache),
+        distances_(distances),
+        radius_(radius),
+        goal_(goal),
+        to_go_(cache.borrow(distances, radius, goal)) {}
+  ~Loan() { cache_.give_back(distances_, radius_, goal_, std::move(to_go_)); }
+  Loan(const Loan&) = delete;
+  Loan& operator=(const Loan&) = delete;
+  CostToGo* get() const { return to_go_.get(); }
+
+ private:
+  CostToGoCache& cache_;
+  const PointDistances& distances_;
+  double radius_;
+  geom::Vec2 goal_;
+  std::unique_ptr<CostToGo> to_go_;
+};
+
+}  // namespace
+
+struct PathPlanner::Impl {
+  Impl(const world::StaticMap& map_in, const vehicle::Model& model_in)
+      : map(map_in),
+        model(model_in),
+        length(model.length()),
+        distances(map, kDiscCell * model.width(), 1.5 * length),
+        cover(model.footprint),
+        reference{cover.widest().x, cover.axis} {}
+
+  FootprintChecker checker(const geom::Pose2& start, const geom::Pose2& goal,
+                           const PathOptions& options) const;
+  std::optional<Path> plan(const geom::Pose2& start, const geom::Pose2& goal, const PathOptions& options);
+  LatticeResult climb(const Rung& rung, const FootprintChecker& checker, const Route& ends, bool backwards,
+                      const PathOptions& options, int expansions);
+
+  const world::StaticMap& map;
+  vehicle::Model model;
+  double length;
+  PointDistances distances;
+  DiscCover cover;
+  geom::Vec2 reference;  // body frame: the middle of the widest disc inside the footprint
+  CostToGoCache cache;
+};
+
+/// Parked cars that the start or the goal is too close to anyway are nobody's business here: who goes first
+/// settles them.
+FootprintChecker PathPlanner::Impl::checker(const geom::Pose2& start, const geom::Pose2& goal,
+                                            const PathOptions& options) const {
+  FootprintChecker checker(map, &distances, model, options.clearance);
+  const geom::Convex body{model.footprint};
+  const geom::Convex at_start = geom::placed(body, start), at_goal = geom::placed(body, goal);
+  const geom::Box start_box = at_start.box(), goal_box = at_goal.box();
+  for (const auto& footprint : options.parked) {
+    const geom::Box box = geom::bounding_box(footprint).inflated(options.parked_clearance);
+    if (box.overlaps(start_box) && geom::distance(at_start.core, footprint) < options.parked_clearance)
+      continue;
+    if (box.overlaps(goal_box) && geom::distance(at_goal.core, footprint) < options.parked_clearance)
+      continue;
+    checker.park(footprint, options.parked_clearance);
+  }
+  return checker;
+}
+
+/// One rung: the way between the ends of `ends`; when `backwards`, as the car will drive it the other way
+/// round.
+LatticeResult PathPlanner::Impl::climb(const Rung& rung, const FootprintChecker& checker, const Route& ends,
+                                       bool backwards, const PathOptions& options, int expansions) {
+  const double radius = rung.radius / model.max_curvature();
+  const double disc = cover.widest().inner + options.clearance;
+  const Loan to_go(cache, distances, disc, ends.goal * reference);
+  LatticeProblem problem;
+  problem.start = ends.start;
+  problem.goal = ends.goal;
+  problem.checker = &checker;
+  problem.to_go = to_go.get();
+  problem.reference = reference;
+  problem.deadline = options.deadline;
+  problem.costs.radius = radius;
+  problem.costs.driving.forward = backwards ? kReverse : 1.0;
+  problem.costs.driving.reverse = backwards ? 1.0 : kReverse;
+  problem.costs.driving.gear_change = rung.gear_change * radius;
+  problem.costs.steering_change = kSteeringChange;
+  problem.costs.short_stretch = kShortStretch * length;
+  problem.costs.bumps = options.bumps;
+  LatticeSettings settings;
+  settings.step = rung.step * radius;
+  settings.cell = rung.cell * radius;
+  settings.headings = rung.headings;
+  settings.forward = backwards ? rung.backward : rung.forward;
+  settings.backward = backwards ? rung.forward : rung.backward;
+  settings.heuristic_weight = options.heuristic_weight;
+  settings.max_expansions = expansions;
+  LatticeResult result = search_lattice(problem, settings);
+  if (result.route) shorten(*result.route, checker, problem.costs);
+  return result;
+}
+
+std::optional<Path> PathPlanner::Impl::plan(const geom::Pose2& start, const geom::Pose2& goal,
+                                            const PathOptions& options) {
+  FootprintChecker free = checker(start, goal, options);
+  const double room_start = free.room(start), room_goal = free.room(goal);
+  if (std::min(room_start, room_goal) < -kTouch) return std::nullopt;
+
+  int left = options.max_expansions;
+  for (const Rung& rung : kLadder) {
+    if (left <= 0 || options.deadline.expired()) break;
+    FootprintChecker checker = free;
+    const double slack = rung.slack * kSlack * length;
+    checker.set_slack(slack);
+    checker.ease_slack(start.position(), kEaseRadius * length, std::min(slack, 0.5 * room_start));
+    checker.ease_slack(goal.position(), kEaseRadius * length, std::min(slack, 0.5 * room_goal));
+    // The way out of a tight place is easier to find than the way in: search from there.
+    const bool backwards = rung.from_tighter_end && room_goal < room_start;
+    const int expansions =
+        std::min(left, std::max(150, static_cast<int>(rung.share * options.max_expansions)));
+    LatticeResult result = climb(rung, checker, backwards ? Route{goal, start, {}} : Route{start, goal, {}},
+                                 backwards, options, expansions);
+    if (result.unreachable) return std::nullopt;
+    if (result.route) {
+      const Route route = backwards ? reversed(*result.route) : *std::move(result.route);
+      return sampled(route, kPathSpacing * length);
+    }
+    left -= result.expansions;
+  }
+  return std::nullopt;
+}
+
+PathPlanner::PathPlanner(const world::StaticMap& map, const vehicle::Model& model)
+    : impl_(std::make_unique<Impl>(map, model)) {}
+PathPlanner::~PathPlanner() = default;
+PathPlanner::PathPlanner(PathPlanner&&) noexcept = default;
+
+std::optional<Path> PathPlanner::plan(const geom::Pose2& start, const geom::Pose2& goal,
+                                      const PathOptions& options) const {
+  return impl_->plan(start, goal, options);
+}
+
+}  // namespace seine::search
