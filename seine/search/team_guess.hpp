@@ -7,6 +7,8 @@
 
 #include "seine/base/deadline.hpp"
 #include "seine/search/path.hpp"
+#include "seine/search/speed_lattice.hpp"
+#include "seine/search/team_search.hpp"
 #include "seine/world/scenario.hpp"
 #include "seine/world/static_map.hpp"
 
@@ -16,21 +18,29 @@ struct GuessOptions {
   Deadline deadline;
   int threads = 1;
   std::uint64_t seed = 0;
-  double extra_robot_clearance = 0.0;           ///< m, on top of the scenario's margin: a repair asks for more room
-  const std::vector<std::optional<TimedPath>>* fixed = nullptr;  ///< robots that already have their motion and keep it (one entry a robot)
-  const std::vector<std::vector<TimedPath>>* avoid = nullptr;    ///< per robot, guesses tried before that a repair should not repeat (may be empty)
+  double extra_robot_clearance = 0.0;  ///< m, on top of the scenario's margin: a repair asks for more room
+  const std::vector<std::optional<TimedPath>>* fixed =
+      nullptr;  ///< robots that already have their motion and keep it (one entry a robot)
+  const std::vector<std::vector<TimedPath>>* avoid =
+      nullptr;             ///< per robot, guesses tried before that a repair should not repeat (may be empty)
+  LatticeOptions lattice;  ///< how much of the limits the speed profiles use
+  TeamSearchOptions team;  ///< how much is tried
 };
 
 struct TeamGuess {
   bool complete = false;
-  std::vector<TimedPath> robots;    ///< collision-free on the common clock when complete
-  std::vector<double> alone;        ///< s, arrival of each car if the others were not there (lower bound on its path)
-  std::string reason;               ///< why not complete: names the robots
-  struct { double field = 0, paths = 0, coordinate = 0; } seconds;
+  std::vector<TimedPath> robots;  ///< collision-free on the common clock when complete
+  std::vector<double>
+      alone;           ///< s, arrival of each car if the others were not there (lower bound on its path)
+  std::string reason;  ///< why not complete: names the robots
+  struct {
+    double field = 0, paths = 0, coordinate = 0;
+  } seconds;
 };
 
-/// The coordinated guess for the whole team: who drives where, when, and who goes first (docs/front-end.md). Anytime after the first
-/// complete pass; deterministic for the same seed when the deadline is not reached.
-TeamGuess guess_team(const world::Scenario& scenario, const world::StaticMap& map, const GuessOptions& options);
+/// The coordinated guess for the whole team: who drives where, when, and who goes first (docs/front-end.md).
+/// Anytime after the first complete pass; deterministic for the same seed when the deadline is not reached.
+TeamGuess guess_team(const world::Scenario& scenario, const world::StaticMap& map,
+                     const GuessOptions& options);
 
 }  // namespace seine::search

@@ -1,0 +1,111 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "seine/base/deadline.hpp"
+#include "seine/search/path_planner.hpp"
+#include "seine/search/speed_lattice.hpp"
+#include "seine/search/traffic.hpp"
+#include "seine/search/velocity.hpp"
+#include "seine/world/scenario.hpp"
+
+namespace seine::search {
+
+/// One path a robot may take, ready for velocity planning.
+struct Way {
+  SpeedLattice lattice;
+  double alone = 0.0;           ///< s, arrival if nobody else were there
+  std::vector<int> reach;       ///< per tick, furthest unit that can be reached
+  std::vector<int> unhindered;  ///< per tick, the unit where the car is when nobody is in its way
+};
+
+/// A robot's motion in the team: which way, when. Shared between team states, never changed.
+struct Placement {
+  int way = -1;  ///< −1: its motion was fixed by the caller
+  std::vector<ProfileKnot> profile;
+  double arrival = 0.0;            ///< s
+  std::vector<MovingBody> bodies;  ///< one for each clock of the team
+};
+
+/// Who is where: null for robots that have no motion yet.
+using TeamState = std::vector<std::shared_ptr<const Placement>>;
+
+/// The robots of a scenario, their ways, and the one question everything is made of: when can this robot go,
+/// given what the others do? Const calls are safe from many threads at once, each with its own workspace.
+class Coordinator {
+ public:
+  /// @param extra_clearance m, on top of the scenario's margin between robots where starts and goals leave
+  /// that much room
+  Coordinator(const world::Scenario& scenario, const LatticeOptions& lattice, double extra_clearance);
+
+  int robots() const { return static_cast<int>(cars_.size()); }
+  /// Adds a path for the robot; false when it cannot be driven alone.
+  bool add_way(int robot, Path path);
+  const std::vector<std::unique_ptr<Way>>& ways(int robot) const {
+    return cars_[static_cast<std::size_t>(robot)].ways;
+  }
+  /// Smallest arrival over its ways when nobody else is there.
+  double alone(int robot) const;
+  /// The robot keeps this motion.
+  void fix(int robot, const TimedPath& motion, TeamState& state);
+  bool fixed(int robot) const { return cars_[static_cast<std::size_t>(robot)].fixed.has_value(); }
+
+  /// The earliest arrival of the robot among the others of `state`, over all its ways; null when none works.
+  std::shared_ptr<const Placement> place(int robot, const TeamState& state,
+                                         VelocityWorkspace& workspace) const;
+  /// The same with one way only.
+  std::shared_ptr<const Placement> place_on(int robot, int way, const TeamState& state,
+                                            VelocityWorkspace& workspace) const;
+
+  /// Robots that are in the way of the unhindered drive along `way`, in the order of the first conflict, and
+  /// where that is.
+  struct Conflict {
+    int robot;  ///< −1: a moving obstacle
+    int tick;
+    int unit;
+  };
+  std::vector<Conflict> conflicts(int robot, int way, const TeamState& state) const;
+
+  /// Whether somewhere on its first way the robot touches another one that stands at its start, or at its
+  /// goal.
+  bool touches_start(int robot, int other) const { return touches(robot, other, false); }
+  bool touches_goal(int robot, int other) const { return touches(robot, other, true); }
+
+  TimedPath motion(int robot, const Placement& placement) const;
+  std::vector<geom::Vec2> footprint_at(int robot, const geom::Pose2& pose) const;
+  const world::Scenario& scenario() const { return scenario_; }
+
+ private:
+  struct Kind {  // of car: one for each model
+    SpeedGrid grid;
+    SweptFootprint footprint;
+    std::size_t clock;
+  };
+  struct Car {
+    const Kind* kind;
+    std::vector<std::unique_ptr<Way>> ways;
+    std::optional<TimedPath> fixed;
+    std::vector<geom::Vec2> at_start, at_goal;
+  };
+  const Car& car(int robot) const { return cars_[static_cast<std::size_t>(robot)]; }
+  double clearance(int a, int b) const;
+  bool touches(int robot, int other, bool goal) const;
+  std::vector<MovingBody> bodies_of(const Path& path, std::span<const ProfileKnot> profile,
+                                    const Kind& kind) const;
+  VelocityPlan plan_on(int robot, const Way& way, const TeamState& state, VelocityWorkspace& workspace) const;
+
+  const world::Scenario& scenario_;
+  double extra_clearance_;
+  std::vector<Kind> kinds_;
+  std::vector<double> clocks_;  // s, the distinct ticks
+  std::vector<Car> cars_;
+  std::vector<std::vector<MovingBody>> obstacles_;  // by clock
+};
+
+}  // namespace seine::search

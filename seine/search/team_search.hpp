@@ -1,0 +1,76 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "seine/base/deadline.hpp"
+#include "seine/base/rng.hpp"
+#include "seine/search/coordinator.hpp"
+#include "seine/search/path_planner.hpp"
+#include "seine/search/precedence.hpp"
+
+namespace seine::search {
+
+/// How much is tried. All budgets are counts, not seconds, so that the answer does not depend on the machine.
+struct TeamSearchOptions {
+  int passes = 12;              ///< restarts of the priority pass until everybody has a motion
+  int detour_tries = 3;         ///< paths asked for when a robot cannot go at all
+  int detour_expansions = 300;  ///< of one such search
+  double late = 1.0;  ///< s, a delay worth a detour, or `late_share` of the time alone when that is longer
+  double late_share = 0.2;
+  int late_tries = 1;         ///< paths asked for when a robot is late
+  int most_ways = 6;          ///< kept for one robot
+  double rounds = 3.0;        ///< neighbourhoods tried for each robot after everybody has a motion
+  int neighbours = 4;         ///< robots taken out together with the late one
+  double bump_lengths = 2.1;  ///< radius of the places to avoid, in car lengths
+  double bump_weight = 2.5;   ///< what a metre in them costs
+};
+
+/// Decides who goes when and along which of its ways: priority passes with detours until everybody has a
+/// motion, then a large neighbourhood search that takes small groups out and puts them back in another order
+/// while the sum of arrivals falls.
+class TeamSearch {
+ public:
+  /// A path around the bumps, or nothing; called from one thread.
+  using FindPath =
+      std::function<std::optional<Path>(int robot, std::span<const Bump> bumps,
+                                        std::span<const std::vector<geom::Vec2>> parked, int expansions)>;
+
+  /// @param find_path may be empty: then the ways at hand must do
+  TeamSearch(Coordinator& coordinator, FindPath find_path, const TeamSearchOptions& options,
+             std::uint64_t seed);
+
+  /// Tries until every robot has a motion. Robots that have one in `state` (the fixed) keep it. False:
+  /// `state` holds the pass that came furthest.
+  bool solve(TeamState& state, const Deadline& deadline, std::span<const int> first_order = {});
+  /// Lowers the sum of arrivals of a complete state; never makes it worse.
+  void improve(TeamState& state, const Deadline& deadline);
+
+ private:
+  using Placed = std::shared_ptr<const Placement>;
+  int pass(const std::vector<int>& order, TeamState& state, const Deadline& deadline);
+  Placed place(int robot, const TeamState& state);
+  Placed detour(int robot, const TeamState& state, Placed best, int tries);
+  Placed around_the_parked(int robot, const TeamState& state);
+  bool make_room(int robot, TeamState& state);
+  bool add_way(int robot, std::optional<Path> path);
+  bool late(int robot, double arrival) const;
+  int fastest_way(int robot) const;
+  std::vector<int> group_around(int robot, const TeamState& state);
+  bool replace_group(const std::vector<int>& group, TeamState& state);
+
+  Coordinator& coordinator_;
+  FindPath find_path_;
+  TeamSearchOptions options_;
+  Rng rng_;
+  Precedence precedence_;
+  VelocityWorkspace workspace_;
+};
+
+/// Σ arrival over the robots that have a motion, s.
+double sum_of_arrivals(const TeamState& state);
+
+}  // namespace seine::search

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "seine/search/path.hpp"
+#include "seine/search/swept_footprint.hpp"
+#include "seine/world/scenario.hpp"
+
+namespace seine::search {
+
+/// Something that moves on the common clock, as polygons that stand for spans of time. Time is counted in
+/// ticks: tick q is the time q·tick and stands for [q − ½, q + ½] ticks. Within an event the body is inside
+/// its polygon.
+class MovingBody {
+ public:
+  static constexpr int kForever = std::numeric_limits<int>::max();
+
+  struct Event {
+    geom::Box box;
+    int begin, end;  ///< ticks, [begin, end); kForever: it stays
+  };
+  struct Chunk {
+    geom::Box box;
+    int first, last;  ///< events, [first, last)
+    int begin, end;   ///< ticks
+  };
+
+  MovingBody() = default;
+  /// A car on its path by a speed profile (as in TimedPath).
+  MovingBody(const Path& path, std::span<const ProfileKnot> profile, const SweptFootprint& footprint,
+             double tick);
+  /// A convex part of a moving obstacle: `shape` in the obstacle's body frame; a rounded shape is replaced by
+  /// a polygon around it.
+  MovingBody(const geom::Convex& shape, std::span<const world::Waypoint> motion, double tick);
+
+  std::span<const Event> events() const { return events_; }
+  std::span<const Chunk> chunks() const { return chunks_; }
+  std::span<const geom::Vec2> polygon(int event) const {
+    return {&polygons_[static_cast<std::size_t>(event) * corners_], corners_};
+  }
+  const geom::Box& box() const { return box_; }
+  int rest_tick() const {
+    return events_.empty() ? 0 : events_.back().begin;
+  }  ///< from when on it stands for good
+
+ private:
+  std::span<geom::Vec2> add_event(int begin, int end);
+  void finish();
+
+  std::size_t corners_ = 0;
+  std::vector<Event> events_;
+  std::vector<Chunk> chunks_;
+  std::vector<geom::Vec2> polygons_;
+  geom::Box box_;
+};
+
+/// Where a moving obstacle's body frame is at time t: straight between waypoints, heading the short way
+/// round.
+geom::Pose2 pose_at(std::span<const world::Waypoint> motion, double t);
+
+/// The moving obstacles of a scenario as convex parts, each in its obstacle's body frame.
+struct MovingPart {
+  geom::Convex shape;
+  std::span<const world::Waypoint> motion;  ///< of the scenario, which must outlive it
+};
+std::vector<MovingPart> moving_parts(const world::Scenario& scenario);
+
+}  // namespace seine::search

@@ -1,0 +1,254 @@
+#include "seine/search/velocity.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace seine::search {
+namespace {
+
+constexpr int kWordBits = 64;
+
+std::size_t idx(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+bool test(const std::uint64_t* bits, int i) {
+  return (bits[i / kWordBits] >> (i % kWordBits) & 1) != 0;
+}
+
+// into |= bits << shift over the words [low, high], 0 ≤ shift < 64; `into` has room for one word more.
+void or_shifted(std::uint64_t* into, const std::uint64_t* bits, int shift, int low, int high, int last) {
+  if (shift == 0) {
+    for (int w = low; w <= high; ++w) into[w] |= bits[w];
+    return;
+  }
+  std::uint64_t carry = 0;
+  for (int w = low; w <= high; ++w) {
+    into[w] |= bits[w] << shift | carry;
+    carry = bits[w] >> (kWordBits - shift);
+  }
+  if (high < last) into[high + 1] |= carry;
+}
+
+// The search itself. Layer t holds, for each speed level, the set of units where the car can be at tick 2t.
+class Program {
+ public:
+  Program(const SpeedLattice& lattice, VelocityWorkspace& workspace, const VelocityOptions& options)
+      : lattice_(lattice),
+        occupied_(workspace.occupied),
+        layers_(workspace.layers),
+        options_(options),
+        levels_(lattice.grid().levels),
+        words_(lattice.words()),
+        stride_(idx((levels_ + 1) * words_)) {}
+
+  VelocityPlan run();
+
+ private:
+  const std::uint64_t* taken(int tick) const { return occupied_.row(std::min(tick, occupied_.ticks() - 1)); }
+  std::uint64_t* level(int layer, int k) { return &layers_[idx(layer) * stride_ + idx(k * words_)]; }
+  void advance(int layer);
+  void shift_moves(int layer, int k, const std::uint64_t* middle);
+  bool stays_free(int tick) const { return tick > last_taken_goal_; }
+  int furthest(int layer);
+  std::vector<ProfileKnot> trace_back(int layer);
+  bool came_from(int layer, int k, int unit, int change);
+
+  const SpeedLattice& lattice_;
+  const Occupied& occupied_;
+  std::vector<std::uint64_t>& layers_;
+  const VelocityOptions& options_;
+  const int levels_, words_;
+  const std::size_t stride_;
+  int low_ = 0, high_ = 0;    // words in which anything is alive
+  int last_taken_goal_ = -1;  // tick
+  std::vector<std::uint64_t> moved_;
+};
+
+// States at `layer` to states at `layer + 1`.
+void Program::advance(int layer) {
+  layers_.resize(idx(layer + 2) * stride_);
+  std::fill_n(level(layer + 1, 0), stride_, 0);
+  const std::uint64_t* middle = taken(2 * layer + 1);
+  for (int k = 0; k <= levels_; ++k) shift_moves(layer, k, middle);
+  high_ = std::min(high_ + 1, words_ - 1);
+  const std::uint64_t* then = taken(2 * layer + 2);
+  std::uint64_t low_alive = 0, high_alive = 0;
+  for (int k = 0; k <= levels_; ++k) {
+    std::uint64_t* row = level(layer + 1, k);
+    for (int w = low_; w <= high_; ++w) row[w] &= ~then[w];
+    low_alive |= row[low_];
+    high_alive |= row[high_];
+  }
+  if (low_alive == 0 && low_ < high_) ++low_;
+  if (high_alive == 0 && low_ < high_) --high_;
+}
+
+// A move is tested at its middle: unit + level, except that leaving rest (0, +1) is tested one unit ahead and
+// coming to rest (1, −1) one unit back: units at which a car rests are tested without any slack.
+void Program::shift_moves(int layer, int k, const std::uint64_t* middle) {
+  const std::uint64_t* from = level(layer, k);
+  std::uint64_t any = 0;
+  for (int w = low_; w <= high_; ++w) any |= from[w];
+  if (any == 0) return;
+  for (int j = -1; j <= 1; ++j) {
+    if (k + j < 0 || k + j > levels_) continue;
+    const int ahead = k == 0 && j == 1 ? 1 : k == 1 && j == -1 ? 0 : k;
+    const std::uint64_t* allowed = lattice_.moves(k, j);
+    for (int w = low_; w <= high_; ++w) {
+      std::uint64_t blocked = middle[w] >> ahead;
+      if (ahead > 0) blocked |= middle[w + 1] << (kWordBits - ahead);  // rows are padded
+      moved_[idx(w)] = from[w] & allowed[w] & ~blocked;
+    }
+    or_shifted(level(layer + 1, k + j), moved_.data(), 2 * k + j, low_, high_, words_ - 1);
+  }
+}
+
+int Program::furthest(int layer) {
+  int best = -1;
+  for (int k = 0; k <= levels_; ++k) {
+    const std::uint64_t* row = level(layer, k);
+    for (int w = words_ - 1; w >= 0 && (w + 1) * kWordBits > best; --w) {
+      if (row[w] == 0) continue;
+      best = std::max(best, w * kWordBits + kWordBits - 1 - __builtin_clzll(row[w]));
+      break;
+    }
+  }
+  return best;
+}
+
+VelocityPlan Program::run() {
+  VelocityPlan plan;
+  const int goal = lattice_.units(), first = lattice_.start_step();
+  for (int q = occupied_.ticks() - 1; q >= 0 && last_taken_goal_ < 0; --q)
+    if (test(occupied_.row(q), goal)) last_taken_goal_ = q;
+  if (last_taken_goal_ == occupied_.ticks() - 1) {
+    plan.furthest = goal;  // taken for good
+    return plan;
+  }
+  layers_.assign(idx(first + 1) * stride_, 0);
+  moved_.assign(idx(words_ + 1), 0);
+  if (!test(taken(0), 0) && !test(taken(first), 0) && !test(taken(2 * first), 0))
+    *level(first, lattice_.start_level()) = 1;
+  int best = 0;
+  if (options_.want_reach) plan.reach.assign(idx(2 * first), 0);
+  for (int layer = first; 2 * layer <= options_.ticks; ++layer) {
+    if (test(level(layer, 0), goal) && stays_free(2 * layer)) {
+      plan.found = true;
+      plan.profile = trace_back(layer);
+      plan.arrival = plan.profile.back().t;
+      return plan;
+    }
+    const int front = furthest(layer);
+    if (front < 0) break;
+    best = std::max(best, front);
+    advance(layer);
+    if (options_.want_reach) {
+      plan.reach.push_back(front);
+      plan.reach.push_back(std::max(front, furthest(layer + 1)));
+    }
+  }
+  plan.furthest = best;
+  return plan;
+}
+
+// Whether the state (k, unit) at `layer + 1` was reached by `change` from `layer`.
+bool Program::came_from(int layer, int k, int unit, int change) {
+  const int before = k - change, from = unit - 2 * before - change;
+  if (before < 0 || before > levels_ || from < 0) return false;
+  if (!test(level(layer, before), from) || !test(lattice_.moves(before, change), from)) return false;
+  const int ahead = before == 0 && change == 1 ? 1 : before == 1 && change == -1 ? 0 : before;
+  return !test(taken(2 * layer + 1), from + ahead);
+}
+
+// Backwards in time the car goes as fast as it can: it leaves as late as possible.
+std::vector<ProfileKnot> Program::trace_back(int layer) {
+  std::vector<ProfileKnot> knots;
+  int unit = lattice_.units(), k = 0;
+  const double step = lattice_.grid().step;
+  const auto knot = [&](int at) {
+    return ProfileKnot{at * step, lattice_.s_at(unit), lattice_.speed_at(unit, k)};
+  };
+  constexpr int kStanding = 2;  // beside the changes −1, 0, 1
+  int last_phase = 3;
+  for (; layer > lattice_.start_step(); --layer) {
+    int change = -1;
+    while (change < 1 && !came_from(layer - 1, k, unit, change)) ++change;
+    const int phase = k == 0 && change == 0 ? kStanding : change;
+    if (phase != last_phase) knots.push_back(knot(layer));
+    last_phase = phase;
+    k -= change;
+    unit -= 2 * k + change;
+  }
+  knots.push_back(knot(layer));
+  if (lattice_.start_step() > 0) knots.push_back({0.0, 0.0, lattice_.start_speed()});
+  std::reverse(knots.begin(), knots.end());
+  return knots;
+}
+
+}  // namespace
+
+void Occupied::reset(const SpeedLattice& lattice, int ticks) {
+  ticks_ = std::max(ticks, 1);
+  stride_ = idx(lattice.words() + 1);
+  bits_.assign(idx(ticks_) * stride_, 0);
+  lasting_.clear();
+}
+
+void Occupied::mark(int begin, int end, int first, int last) {
+  if (end == MovingBody::kForever) {
+    lasting_.push_back({std::min(begin, ticks_ - 1), first, last});
+    return;
+  }
+  for (int q = begin; q < std::min(end, ticks_); ++q)
+    for (int unit = first; unit <= last; ++unit)
+      bits_[idx(q) * stride_ + idx(unit / kWordBits)] |= std::uint64_t{1} << (unit % kWordBits);
+}
+
+void Occupied::add(const SpeedLattice& lattice, const MovingBody& body, double clearance,
+                   std::span<const int> reach) {
+  const geom::Box all = body.box().inflated(clearance);
+  if (!all.overlaps(lattice.box())) return;
+  const auto unreached = [&](int end, int unit) {  // even at the end of its time the car cannot be there
+    return idx(end) <= reach.size() && reach[idx(end) - 1] < unit;
+  };
+  for (const SpeedLattice::Chunk& groups : lattice.chunks()) {
+    if (!groups.box.overlaps(all)) continue;
+    const geom::Box around = groups.box.inflated(clearance);
+    for (const MovingBody::Chunk& events : body.chunks()) {
+      if (!events.box.overlaps(around)) continue;
+      for (int e = events.first; e < events.last; ++e) {
+        const MovingBody::Event& event = body.events()[idx(e)];
+        if (!event.box.overlaps(around)) continue;
+        const geom::Box near = event.box.inflated(clearance);
+        for (int g = groups.first; g < groups.last; ++g) {
+          const SpeedLattice::Group& group = lattice.groups()[idx(g)];
+          if (!group.box.overlaps(near) || unreached(event.end, group.first)) continue;
+          if (!apart(lattice.polygon(idx(g)), body.polygon(e), clearance))
+            mark(event.begin, event.end, group.first, group.last);
+        }
+      }
+    }
+  }
+}
+
+void Occupied::finish() {
+  std::sort(lasting_.begin(), lasting_.end(),
+            [](const Lasting& a, const Lasting& b) { return a.begin < b.begin; });
+  std::vector<std::uint64_t> sum(stride_, 0);
+  std::size_t next = 0;
+  for (int q = lasting_.empty() ? ticks_ : lasting_.front().begin; q < ticks_; ++q) {
+    for (; next < lasting_.size() && lasting_[next].begin <= q; ++next)
+      for (int unit = lasting_[next].first; unit <= lasting_[next].last; ++unit)
+        sum[idx(unit / kWordBits)] |= std::uint64_t{1} << (unit % kWordBits);
+    for (std::size_t w = 0; w < stride_; ++w) bits_[idx(q) * stride_ + w] |= sum[w];
+  }
+}
+
+VelocityPlan plan_velocity(const SpeedLattice& lattice, VelocityWorkspace& workspace,
+                           const VelocityOptions& options) {
+  if (!lattice.drivable()) return {};
+  return Program(lattice, workspace, options).run();
+}
+
+}  // namespace seine::search

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "seine/search/path.hpp"
+#include "seine/search/speed_lattice.hpp"
+#include "seine/search/traffic.hpp"
+
+namespace seine::search {
+
+/// Which units of a lattice are taken at which tick, as bits.
+class Occupied {
+ public:
+  void reset(const SpeedLattice& lattice, int ticks);
+  /// Marks the units whose polygon comes closer than `clearance` to the body. `reach[q]` is the furthest unit
+  /// the car can be at by tick q (empty: anywhere).
+  void add(const SpeedLattice& lattice, const MovingBody& body, double clearance, std::span<const int> reach);
+
+  int ticks() const { return ticks_; }
+  /// One row of `words` (plus one word of padding) for each tick.
+  const std::uint64_t* row(int tick) const { return &bits_[static_cast<std::size_t>(tick) * stride_]; }
+  bool taken(int tick, int unit) const { return (row(tick)[unit / 64] >> (unit % 64) & 1) != 0; }
+  /// Spreads what stays for good over all later rows; call once after the last `add`.
+  void finish();
+
+ private:
+  void mark(int begin, int end, int first, int last);
+  int ticks_ = 0;
+  std::size_t stride_ = 0;
+  std::vector<std::uint64_t> bits_;
+  struct Lasting {
+    int begin, first, last;
+  };
+  std::vector<Lasting> lasting_;
+};
+
+/// The fastest way along a path among what is taken, or how far it got.
+struct VelocityPlan {
+  bool found = false;
+  std::vector<ProfileKnot> profile;  ///< when found; consecutive knots of equal acceleration are merged
+  double arrival = 0.0;              ///< s, when found
+  int furthest = 0;                  ///< unit, when not found: how far the car could get
+  std::vector<int> reach;  ///< per tick, the furthest unit that can be reached (only when asked for)
+};
+
+/// Memory that is used again from call to call.
+struct VelocityWorkspace {
+  Occupied occupied;
+  std::vector<std::uint64_t> layers;
+};
+
+struct VelocityOptions {
+  int ticks =
+      0;  ///< horizon, half time steps; when the row of a later tick is asked for, the last one is used
+  bool want_reach = false;
+};
+
+/// Exact dynamic programming over (way, speed, time): all states that can be reached at a time are one bitset
+/// over the way for each speed level, and a time step is three shifts for each level. The car may wait
+/// anywhere. Among the profiles of earliest arrival the one that leaves last is taken: waiting is done at the
+/// start where possible.
+VelocityPlan plan_velocity(const SpeedLattice& lattice, VelocityWorkspace& workspace,
+                           const VelocityOptions& options);
+
+}  // namespace seine::search
