@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "seine/geom/polygon.hpp"
@@ -10,6 +11,11 @@ namespace seine::io {
 namespace {
 
 constexpr double kWorkspaceMargin = 8.0;  // m around start and goal, as the benchmark plots it
+constexpr double kFarthest = 1e12;        // m
+// Two of the twenty cases lie some 10^9 m from the origin, where a double resolves a micrometre and products
+// of coordinates nothing at all: farther than this from it (m), the origin moves to the whole metre nearest
+// to the start. The subtraction is exact.
+constexpr double kFar = 1e5;
 
 /// The numbers of a TPCAP file one after the other.
 class NumberList {
@@ -27,7 +33,7 @@ class NumberList {
     while (!cell.empty() && is_space(cell.back())) cell.remove_suffix(1);
     if (done_ && cell.empty()) fail(std::string("is missing, expected ") + what);
     const std::optional<double> value = parse_number(cell);
-    if (!value || std::abs(*value) > 1e6) fail(std::string("is no number within 1e6, expected ") + what);
+    if (!value || std::abs(*value) > kFarthest) fail(std::string("is no sane number, expected ") + what);
     return *value;
   }
 
@@ -59,23 +65,33 @@ class NumberList {
   bool done_ = false;
 };
 
+geom::Vec2 origin_near(geom::Vec2 start) {
+  return std::max(std::abs(start.x), std::abs(start.y)) > kFar
+             ? geom::Vec2{std::round(start.x), std::round(start.y)}
+             : geom::Vec2{};
+}
+
 geom::Pose2 read_pose(NumberList& numbers) {
   const double x = numbers.next("x of start or goal"), y = numbers.next("y of start or goal");
   return {x, y, geom::wrap_angle(numbers.next("heading of start or goal"))};
 }
 
-std::vector<geom::Vec2> read_polygon(NumberList& numbers, std::size_t vertices) {
+std::vector<geom::Vec2> read_polygon(NumberList& numbers, std::size_t vertices, geom::Vec2 origin) {
   std::vector<geom::Vec2> polygon;
   for (std::size_t i = 0; i < vertices; ++i) {
     const double x = numbers.next("x of a vertex"), y = numbers.next("y of a vertex");
+    const geom::Vec2 vertex = geom::Vec2{x, y} - origin;
+    if (std::max(std::abs(vertex.x), std::abs(vertex.y)) > 10 * kFar)
+      numbers.fail("puts a vertex too far from the start");
     // Some cases repeat vertices to fill up their polygons.
-    if (polygon.empty() || !(polygon.back() == geom::Vec2{x, y})) polygon.push_back({x, y});
+    if (polygon.empty() || !(polygon.back() == vertex)) polygon.push_back(vertex);
   }
   while (polygon.size() > 1 && polygon.front() == polygon.back()) polygon.pop_back();
   return polygon;
 }
 
-void read_obstacles(NumberList& numbers, const std::string& file, world::Scenario& scenario) {
+void read_obstacles(NumberList& numbers, const std::string& file, geom::Vec2 origin,
+                    world::Scenario& scenario) {
   const std::size_t count = numbers.next_count("the number of obstacles", 0, ScenarioCaps::kObstacles);
   std::vector<std::size_t> sizes;
   std::size_t vertices = 0;
@@ -86,7 +102,7 @@ void read_obstacles(NumberList& numbers, const std::string& file, world::Scenari
   }
   for (std::size_t i = 0; i < count; ++i) {
     world::Obstacle obstacle{.name = joined("obstacle ", i + 1), .shape = {}, .motion = {}};
-    std::vector<geom::Vec2> polygon = read_polygon(numbers, sizes[i]);
+    std::vector<geom::Vec2> polygon = read_polygon(numbers, sizes[i], origin);
     const std::string wrong = geom::why_not_simple(polygon);
     if (!wrong.empty()) throw complaint(file, 1, obstacle.name + " is no simple polygon: " + wrong);
     obstacle.shape = std::move(polygon);
@@ -103,11 +119,15 @@ world::Scenario read_tpcap(std::string_view text, const std::string& file, const
   scenario.models = {vehicle::tpcap_car()};
   scenario.margins = {0.0, 0.0};
   world::Robot robot{.name = "car0", .start = read_pose(numbers), .goal = read_pose(numbers)};
+  const geom::Vec2 origin = origin_near(robot.start.position());
+  for (geom::Pose2* pose : {&robot.start, &robot.goal}) pose->x -= origin.x, pose->y -= origin.y;
+  if (geom::norm(robot.goal.position() - robot.start.position()) > kFar)
+    numbers.fail("ends a goal too far from the start");
   scenario.bounds.include(robot.start.position());
   scenario.bounds.include(robot.goal.position());
   scenario.bounds = scenario.bounds.inflated(kWorkspaceMargin);
   scenario.robots.push_back(std::move(robot));
-  read_obstacles(numbers, file, scenario);
+  read_obstacles(numbers, file, origin, scenario);
   numbers.expect_end();
   return scenario;
 }
