@@ -1,0 +1,65 @@
+// seine certify: proves or refutes any plan.
+#include "seine/certify/certificate.hpp"
+
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include "apps/seine/command.hpp"
+#include "apps/seine/interrupt.hpp"
+#include "apps/seine/summary.hpp"
+#include "seine/base/deadline.hpp"
+#include "seine/io/plan_file.hpp"
+#include "seine/io/report.hpp"
+#include "seine/io/scenario_file.hpp"
+#include "seine/world/static_map.hpp"
+
+namespace seine::app {
+namespace {
+
+struct Arguments {
+  std::string scenario;
+  std::string plan;
+  double deadline = 60.0;
+  int threads = 0;
+};
+
+constexpr const char* kFooter =
+    R"(The proof holds in continuous time, with exact geometry, and knows nothing of how the plan was made: it may have been
+edited by hand or come from another program. Exit status 0: every limit is kept; 1: refuted, with the time and the cars.
+Example
+  seine certify team.yaml plan.json)";
+
+int run(const Arguments& arguments, bool json) {
+  const world::Scenario scenario = io::load_scenario(arguments.scenario);
+  const io::PlanFile plan = io::load_plan(arguments.plan);
+  const world::StaticMap map(scenario);
+  const certify::Certificate certificate = certify::certify(
+      scenario, map, plan.plan,
+      {.threads = arguments.threads, .deadline = Deadline(arguments.deadline, &interrupted())});
+  if (interrupted()) throw Interrupted();
+  std::cout << (json ? io::report_json(scenario, certificate) : summary(scenario, certificate));
+  return certificate.holds ? kDone : kNo;
+}
+
+}  // namespace
+
+void add_certify(CLI::App& program, Invocation& invocation) {
+  CLI::App& command =
+      *program.add_subcommand("certify", "proves a plan in continuous time, or says what it breaks");
+  command.footer(kFooter);
+  const auto arguments = std::make_shared<Arguments>();
+  add_scenario(command, arguments->scenario);
+  command.add_option("PLAN", arguments->plan, "plan.json")->required();
+  command
+      .add_option("--deadline", arguments->deadline, "seconds; what is not proved by then counts as broken")
+      ->check(kPositive)
+      ->capture_default_str();
+  add_threads(command, arguments->threads);
+  add_json(command, invocation);
+  command.callback([&invocation, arguments] {
+    invocation.run = [arguments, &invocation] { return run(*arguments, invocation.json); };
+  });
+}
+
+}  // namespace seine::app

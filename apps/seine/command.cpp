@@ -1,0 +1,49 @@
+#include "apps/seine/command.hpp"
+
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "seine/base/error.hpp"
+
+namespace seine::app {
+
+const CLI::Validator kPositive(
+    [](std::string& text) -> std::string {
+      double value = 0.0;
+      if (CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value > 0.0) return {};
+      return "expected a number above 0, not '" + text + "'";
+    },
+    "ABOVE 0");
+
+CLI::Option* add_scenario(CLI::App& command, std::string& path) {
+  return command
+      .add_option("SCENARIO", path,
+                  "the task: a scenario file, a CL-MAPF instance (*.yaml) or a TPCAP case (*.csv)")
+      ->required();
+}
+
+void add_threads(CLI::App& command, int& threads) {
+  command.add_option("--threads", threads, "0: as many as the machine has")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+}
+
+void add_json(CLI::App& command, Invocation& invocation) {
+  command.add_flag("--json", invocation.json, "answer with one JSON object on stdout");
+}
+
+void expect_writable(const std::string& path) {
+  namespace fs = std::filesystem;
+  if (path.empty()) return;
+  std::error_code error;
+  const fs::path folder = fs::path(path).has_parent_path() ? fs::path(path).parent_path() : fs::path(".");
+  if (fs::is_directory(path, error))
+    throw InputError(path + ": is a folder, expected the name of a file to write");
+  if (!fs::is_directory(folder, error)) throw InputError(path + ": there is no folder " + folder.string());
+  const fs::path target = fs::exists(path, error) ? fs::path(path) : folder;
+  if (::access(target.c_str(), W_OK) != 0) throw InputError(path + ": no permission to write there");
+}
+
+}  // namespace seine::app

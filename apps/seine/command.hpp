@@ -1,0 +1,44 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <string>
+
+namespace seine::app {
+
+/// What the program answers to the shell (scripts rely on it).
+enum ExitStatus : int {
+  kDone = 0,   ///< what was asked for happened; for a plan: it is certified
+  kNo = 1,     ///< no: no certified plan, a plan refuted, interrupted
+  kWrong = 2,  ///< the input or the command line is wrong
+};
+
+/// What the chosen subcommand will do, and how it answers when something goes wrong on the way.
+struct Invocation {
+  std::function<int()> run;
+  bool json = false;  ///< stdout carries one JSON object and nothing else
+};
+
+// Each adds its subcommand to the program; when the user chose it, `invocation.run` holds the work. One
+// source file each.
+void add_plan(CLI::App& program, Invocation& invocation);
+void add_certify(CLI::App& program, Invocation& invocation);
+void add_plot(CLI::App& program, Invocation& invocation);
+void add_generate(CLI::App& program, Invocation& invocation);
+void add_export(CLI::App& program, Invocation& invocation);
+void add_bench(CLI::App& program, Invocation& invocation);
+
+/// The positional SCENARIO that most subcommands begin with.
+CLI::Option* add_scenario(CLI::App& command, std::string& path);
+/// `--threads`, 0 for as many as the machine has.
+void add_threads(CLI::App& command, int& threads);
+/// `--json`.
+void add_json(CLI::App& command, Invocation& invocation);
+/// Accepts finite numbers above zero, as text.
+extern const CLI::Validator kPositive;
+
+/// Throws InputError now when `path` could not be written later: a long computation must not end in that
+/// message.
+void expect_writable(const std::string& path);
+
+}  // namespace seine::app

@@ -1,0 +1,75 @@
+// The command line of Seine: reads the arguments, runs one subcommand, turns every failure into one line and
+// an exit status.
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <string>
+
+#include "apps/seine/command.hpp"
+#include "apps/seine/interrupt.hpp"
+#include "seine/base/error.hpp"
+#include "seine/io/report.hpp"
+
+namespace {
+
+using seine::app::Invocation;
+
+constexpr const char* kFooter = R"(Examples
+  seine generate random --robots 8 --seed 1 -o team.yaml      make a task
+  seine plan team.yaml -o plan.json                           plan it; exit status 0 says: certified
+  seine plot team.yaml plan.json -o plan.svg                  look at it
+  seine certify team.yaml plan.json                           prove any plan, also an edited one
+  seine export team.yaml plan.json --rate 50 -o states.csv    what every car does, 50 times a second
+Exit status: 0 done (plan: certified), 1 no (no certified plan, refuted), 2 wrong input or usage.
+`seine COMMAND --help` tells more.)";
+
+/// One line on stderr, and with --json also an object on stdout.
+int fail(const Invocation& invocation, std::string message, int status) {
+  std::replace(message.begin(), message.end(), '\n', ' ');
+  std::fprintf(stderr, "seine: %s\n", message.c_str());
+  if (invocation.json) std::fputs(seine::io::failure_json(message).c_str(), stdout);
+  return status;
+}
+
+int run(const Invocation& invocation) {
+  try {
+    return invocation.run();
+  } catch (const seine::app::Interrupted&) {
+    return fail(invocation, "interrupted", seine::app::kNo);
+  } catch (const seine::InputError& error) {
+    return fail(invocation, error.what(), seine::app::kWrong);
+  } catch (const std::bad_alloc&) {
+    return fail(invocation, "out of memory: the task is too large for this machine", seine::app::kWrong);
+  } catch (const std::exception& error) {
+    return fail(invocation, std::string("internal error: ") + error.what(), seine::app::kNo);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App program(
+      "Seine plans the motion of teams of car-like robots; every plan it gives out is proved in continuous "
+      "time.",
+      "seine");
+  program.footer(kFooter);
+  program.set_version_flag("--version", "seine " SEINE_VERSION);
+  program.require_subcommand(1);
+  Invocation invocation;
+  seine::app::add_plan(program, invocation);
+  seine::app::add_certify(program, invocation);
+  seine::app::add_plot(program, invocation);
+  seine::app::add_export(program, invocation);
+  seine::app::add_generate(program, invocation);
+  seine::app::add_bench(program, invocation);
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::Success& answer) {  // --help, --version
+    return program.exit(answer);
+  } catch (const CLI::ParseError& error) {
+    return fail(invocation, error.what() + std::string(" (try --help)"), seine::app::kWrong);
+  }
+  seine::app::catch_interrupts();
+  return run(invocation);
+}

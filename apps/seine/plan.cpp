@@ -1,0 +1,78 @@
+// seine plan: from a scenario to a certified plan.
+#include <cstdint>
+#include <iostream>
+#include <limits>
+#include <memory>
+#include <string>
+
+#include "apps/seine/command.hpp"
+#include "apps/seine/interrupt.hpp"
+#include "apps/seine/progress_line.hpp"
+#include "apps/seine/summary.hpp"
+#include "seine/io/plan_file.hpp"
+#include "seine/io/report.hpp"
+#include "seine/io/scenario_file.hpp"
+#include "seine/planner/planner.hpp"
+
+namespace seine::app {
+namespace {
+
+struct Arguments {
+  std::string scenario;
+  std::string output;
+  double deadline = std::numeric_limits<double>::infinity();
+  int threads = 0;
+  std::uint64_t seed = 0;
+  std::string method = "joint";
+};
+
+constexpr const char* kFooter =
+    R"(All cars are planned together. What is written has been proved in continuous time; where no such plan was found, nothing
+is written and the exit status is 1.
+Examples
+  seine plan team.yaml -o plan.json
+  seine plan team.yaml --deadline 0.5 --json     the best certified plan within half a second, as numbers
+  seine plan map_50by50_obst25_agents10_ex0.yaml   a CL-MAPF instance as it is)";
+
+int run(const Arguments& arguments, bool json) {
+  expect_writable(arguments.output);
+  const world::Scenario scenario = io::load_scenario(arguments.scenario);
+  ProgressLine line;
+  planner::Options options{
+      .deadline_s = arguments.deadline, .threads = arguments.threads, .seed = arguments.seed, .progress = {}};
+  options.progress = [&line](const planner::Progress& progress) {
+    if (interrupted()) throw Interrupted();
+    line.update(progress.stage, progress.fraction);
+  };
+  const planner::PlanResult result = planner::plan(scenario, options);
+  line.clear();
+  if (result.certified && !arguments.output.empty()) io::save_plan(scenario, result, arguments.output);
+  std::cout << (json ? io::report_json(scenario, result) : summary(scenario, result));
+  if (!json && result.certified && !arguments.output.empty())
+    std::cout << "  written to     " << arguments.output << "\n";
+  return result.certified ? kDone : kNo;
+}
+
+}  // namespace
+
+void add_plan(CLI::App& program, Invocation& invocation) {
+  CLI::App& command = *program.add_subcommand("plan", "plans a team of cars and certifies the plan");
+  command.footer(kFooter);
+  const auto arguments = std::make_shared<Arguments>();
+  add_scenario(command, arguments->scenario);
+  command.add_option("-o,--output", arguments->output, "where the plan goes, plan.json");
+  command
+      .add_option("--deadline", arguments->deadline, "seconds of wall time; the best certified plan by then")
+      ->check(kPositive);
+  add_threads(command, arguments->threads);
+  command.add_option("--seed", arguments->seed, "for the choices that are drawn")->capture_default_str();
+  command.add_option("--method", arguments->method, "joint: all cars optimised together")
+      ->check(CLI::IsMember({"joint"}))
+      ->capture_default_str();
+  add_json(command, invocation);
+  command.callback([&invocation, arguments] {
+    invocation.run = [arguments, &invocation] { return run(*arguments, invocation.json); };
+  });
+}
+
+}  // namespace seine::app

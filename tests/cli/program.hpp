@@ -1,0 +1,45 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace seine::tests {
+
+/// What one run of the program left behind.
+struct Outcome {
+  int status = -1;  ///< exit status; −1 when it was killed by a signal
+  std::string out;
+  std::string err;
+  double seconds = 0.0;
+};
+
+/// A scratch folder, gone with the object, and the program run in it.
+class Scratch {
+ public:
+  Scratch();
+  ~Scratch();
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+
+  /// Runs `seine ARGUMENTS` (shell syntax) in the folder.
+  Outcome run(const std::string& arguments) const;
+  /// Writes a file into the folder.
+  void write(const std::string& name, const std::string& text) const;
+  std::string read(const std::string& name) const;
+  bool has(const std::string& name) const { return std::filesystem::exists(folder_ / name); }
+  const std::filesystem::path& folder() const { return folder_; }
+
+ private:
+  std::filesystem::path folder_;
+};
+
+/// Exactly one line, ended.
+bool is_one_line(const std::string& text);
+
+/// Sanitizers make everything several times slower: times are held against limits with this factor.
+double patience();
+
+/// A small valid task: two cars that pass each other, and whatever else `extra` adds (YAML at the top level).
+std::string two_cars(const std::string& extra = "");
+
+}  // namespace seine::tests

@@ -1,0 +1,81 @@
+#include <gtest/gtest.h>
+
+#include "tests/cli/program.hpp"
+
+namespace seine::tests {
+namespace {
+
+TEST(Usage, HelpTeaches) {
+  const Scratch scratch;
+  const Outcome help = scratch.run("--help");
+  EXPECT_EQ(help.status, 0);
+  for (const char* word :
+       {"plan", "certify", "plot", "export", "generate", "bench", "Examples", "Exit status"}) {
+    EXPECT_NE(help.out.find(word), std::string::npos) << word;
+  }
+  EXPECT_EQ(help.err, "");
+  for (const char* command : {"plan", "certify", "plot", "export", "generate", "bench"}) {
+    const Outcome more = scratch.run(std::string(command) + " --help");
+    EXPECT_EQ(more.status, 0) << command;
+    EXPECT_NE(more.out.find("Example"), std::string::npos) << command;
+  }
+}
+
+TEST(Usage, VersionIsOneLine) {
+  const Outcome version = Scratch().run("--version");
+  EXPECT_EQ(version.status, 0);
+  EXPECT_TRUE(is_one_line(version.out)) << version.out;
+}
+
+/// Wrong command lines: status 2, one line on stderr, nothing on stdout, at once.
+class WrongUsage : public testing::TestWithParam<const char*> {};
+
+TEST_P(WrongUsage, IsOneLineAndStatusTwo) {
+  const Scratch scratch;
+  scratch.write("s.yaml", two_cars());
+  const Outcome outcome = scratch.run(GetParam());
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_TRUE(is_one_line(outcome.err)) << outcome.err;
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_LT(outcome.seconds, 1.0 * patience());
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Cli, WrongUsage,
+    testing::Values("", "paln s.yaml", "plan", "plan s.yaml --frobnicate", "plan s.yaml --deadline 0",
+                    "plan s.yaml --deadline -1", "plan s.yaml --deadline nan", "plan s.yaml --deadline soon",
+                    "plan s.yaml --threads -1", "plan s.yaml --threads 1e9", "plan s.yaml --seed -4",
+                    "plan s.yaml --seed x", "plan s.yaml --method magic",
+                    "plan s.yaml -o no/such/folder/plan.json", "plan s.yaml -o .", "plan missing.yaml",
+                    "plan .", "plan s.yaml s.yaml", "certify s.yaml", "certify s.yaml missing.json",
+                    "certify s.yaml s.yaml", "plot s.yaml", "plot s.yaml missing.json -o a.svg",
+                    "export s.yaml missing.json", "export s.yaml missing.json --rate 0 -o a.csv", "generate",
+                    "generate rondom", "generate random --robots 0", "generate random --robots -3",
+                    "generate random --robots 1000000000", "generate random --robots three",
+                    "generate swap --obstacles 4", "generate random --obstacles -1", "generate map",
+                    "generate map --map s.yaml", "generate random --map s.yaml", "bench",
+                    "bench --family rondom", "bench missing.yaml --seeds 0",
+                    "bench --reference missing.csv s.yaml", "view s.yaml", "simulate s.yaml"));
+
+TEST(Usage, GenerateIsDeterministicAndLoads) {
+  const Scratch scratch;
+  for (const std::string family : {"random", "swap", "corridor", "parking"}) {
+    const Outcome a = scratch.run("generate " + family + " --robots 5 --seed 3");
+    EXPECT_EQ(a.status, 0) << a.err;
+    EXPECT_EQ(a.out, scratch.run("generate " + family + " --robots 5 --seed 3").out);
+    EXPECT_EQ(scratch.run("generate " + family + " --robots 5 --seed 3 -o s.yaml").status, 0);
+    EXPECT_EQ(scratch.read("s.yaml"), a.out);
+  }
+}
+
+TEST(Usage, GenerateOnAMapWritesTheMapBeside) {
+  const Scratch scratch;
+  const std::string map = std::string(SEINE_DATA_DIR) + "/maps/ros/skirk.yaml";
+  const Outcome outcome = scratch.run("generate map --map " + map + " --robots 3 --seed 2 -o s.yaml");
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_TRUE(scratch.has("s.yaml"));
+  EXPECT_TRUE(scratch.has("s-map.yaml"));
+}
+
+}  // namespace
+}  // namespace seine::tests
