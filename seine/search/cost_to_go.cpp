@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <utility>
 
 namespace seine::search {
 namespace {
 
-constexpr int kPage = 16;
 constexpr std::uint32_t kStraight = 12, kDiagonal = 17;
 constexpr std::uint32_t kClosed = 1;
 
@@ -25,8 +25,9 @@ CostToGo::CostToGo(const PointDistances& distances, double radius, geom::Vec2 go
     : distances_(&distances),
       radius_(radius),
       half_diagonal_(distances.cell() * std::sqrt(0.5)),
-      page_columns_((distances.columns() + kPage - 1) / kPage) {
-  pages_.resize(static_cast<std::size_t>(page_columns_ * ((distances.rows() + kPage - 1) / kPage)));
+      page_columns_((static_cast<std::uint32_t>(distances.columns()) + kPage - 1) / kPage) {
+  pages_.resize(page_columns_ * ((static_cast<std::uint32_t>(distances.rows()) + kPage - 1) / kPage));
+  bytes_ = pages_.size() * sizeof(pages_[0]);
   const Cell cell{distances.column(goal.x), distances.row(goal.y)};
   focus_ = cell;
   if (!distances.inside(cell.column, cell.row)) return;
@@ -40,13 +41,9 @@ CostToGo::Ground CostToGo::ground(int column, int row) const {
   return distance + 1e-5 < radius_ - half_diagonal_ ? Ground::blocked : Ground::tight;
 }
 
-std::uint32_t& CostToGo::mark(int column, int row) {
-  auto& page = pages_[static_cast<std::size_t>((row / kPage) * page_columns_ + column / kPage)];
-  if (!page) {
-    page = std::make_unique<Page>(kPage * kPage);
-    ++pages_used_;
-  }
-  return (*page)[static_cast<std::size_t>((row % kPage) * kPage + column % kPage)];
+void CostToGo::add(std::unique_ptr<std::uint32_t[]>& page) {
+  page = std::make_unique<std::uint32_t[]>(kPage * kPage);
+  bytes_ += kPage * kPage * sizeof(std::uint32_t);
 }
 
 std::uint32_t CostToGo::ahead(int column, int row) const {
@@ -113,13 +110,6 @@ double CostToGo::operator()(geom::Vec2 p) {
     if ((m & kClosed) != 0) return cost_of(m) * distances_->cell() / kStraight;
     if (!expand_one()) return std::numeric_limits<double>::infinity();
   }
-}
-
-std::size_t CostToGo::bytes() const {
-  std::size_t bytes = pages_.size() * sizeof(pages_[0]) +
-                      pages_used_ * (sizeof(Page) + kPage * kPage * sizeof(std::uint32_t));
-  for (const auto& bucket : open_) bytes += sizeof(bucket) + bucket.capacity() * sizeof(Cell);
-  return bytes;
 }
 
 }  // namespace seine::search

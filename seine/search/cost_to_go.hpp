@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <vector>
 
@@ -24,20 +23,26 @@ class CostToGo {
   void focus(geom::Vec2 point);
   /// m from the middle of p's cell to the goal's; infinity when there is no way.
   double operator()(geom::Vec2 p);
-  /// Memory in use, bytes.
-  std::size_t bytes() const;
+  /// Memory in use, bytes (without the queue, which is a small part of it).
+  std::size_t bytes() const { return bytes_; }
 
  private:
+  static constexpr std::uint32_t kPage = 32;
   // Costs are whole numbers (12 a straight step, 17 a diagonal one, half as much again where the disc only
   // just fits), so that equal ways tie exactly and the values are the same in any order. A page holds 16 × 16
   // cells: 0 = never seen, else 2·cost + closed + 2.
-  using Page = std::vector<std::uint32_t>;
   struct Cell {
     std::int32_t column, row;
   };
   enum class Ground : std::uint8_t { blocked, tight, open };
   Ground ground(int column, int row) const;
-  std::uint32_t& mark(int column, int row);
+  std::uint32_t& mark(int column, int row) {
+    const auto c = static_cast<std::uint32_t>(column), r = static_cast<std::uint32_t>(row);
+    auto& page = pages_[(r / kPage) * page_columns_ + c / kPage];
+    if (!page) add(page);
+    return page[(r % kPage) * kPage + c % kPage];
+  }
+  void add(std::unique_ptr<std::uint32_t[]>& page);
   std::uint32_t ahead(int column, int row) const;
   void push(Cell cell, std::uint32_t cost);
   bool expand_one();
@@ -46,11 +51,11 @@ class CostToGo {
   double radius_;
   double half_diagonal_;
   Cell focus_{};
-  int page_columns_;
-  std::vector<std::unique_ptr<Page>> pages_;
+  std::uint32_t page_columns_;
+  std::vector<std::unique_ptr<std::uint32_t[]>> pages_;
   std::vector<std::vector<Cell>> open_;  // by cost + cost ahead
   std::size_t lowest_ = 0;
-  std::size_t pages_used_ = 0;
+  std::size_t bytes_ = 0;
 };
 
 }  // namespace seine::search

@@ -14,15 +14,19 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kWords =
     3;  // Reeds-Shepp words tried per shot: the best one is often blocked where the third is not
 
+/// How much is known about a node. What is dear (the sweep, the cost to go, Reeds-Shepp words) is found out
+/// only when the node comes to the front of the queue by what is known so far: most never do.
+enum class Stage : std::uint8_t { guessed, checked, tried, closed };
+
 struct Node {
   geom::Pose2 pose;
   Arc arc;          // that led here
   double cost;      // from the start
+  double left;      // to the goal, m: a lower bound until checked
   double estimate;  // of the whole way, the queue's key
-  double room;
-  int parent;         // −1 at the root
-  bool shot = false;  // the goal was tried from here
-  bool closed = false;
+  double room;      // once checked
+  int parent;       // −1 at the root
+  Stage stage = Stage::guessed;
 };
 
 struct Entry {
@@ -93,23 +97,26 @@ class Lattice {
         open_(scratch.open),
         bins_(scratch.bins),
         moves_(Primitives::fan(problem.costs.radius, settings.step, settings.forward, settings.backward)),
-        bin_angle_(2.0 * std::numbers::pi / settings.headings) {}
+        bin_angle_(2.0 * std::numbers::pi / settings.headings),
+        target_(problem.goal * problem.reference) {}
 
   LatticeResult run();
 
  private:
   double ahead(const geom::Pose2& pose) { return (*p_.to_go)(pose * p_.reference); }
   std::uint64_t bin(const geom::Pose2& pose) const;
-  void push(int node);
+  Node& node(int index) { return nodes_[static_cast<std::size_t>(index)]; }
+  const Node& node(int index) const { return nodes_[static_cast<std::size_t>(index)]; }
+  bool start();
+  void push(int index);
   int pop();
-  double shoot(int node);
-  void expand(int node);
-  void try_move(int node, const Arc& move);
+  bool check(int index);
+  double shoot(int index);
+  bool try_goal(int index);
+  void expand(int index);
+  void add(int parent, const Arc& move);
   Route route() const;
-  const Arc* arc_before(int node) const {
-    const Node& n = nodes_[static_cast<std::size_t>(node)];
-    return n.parent < 0 ? nullptr : &n.arc;
-  }
+  const Arc* arc_before(const Node& n) const { return n.parent < 0 ? nullptr : &n.arc; }
 
   const LatticeProblem& p_;
   const LatticeSettings& s_;
@@ -118,6 +125,7 @@ class Lattice {
   Bins& bins_;
   Primitives moves_;
   double bin_angle_;
+  geom::Vec2 target_;  // where the reference point is at the goal
   // The best way found so far: a node and the word that leads from it to the goal.
   double best_cost_ = kInfinity;
   int best_node_ = -1;
@@ -134,8 +142,8 @@ std::uint64_t Lattice::bin(const geom::Pose2& pose) const {
          (index((pose.y - p_.start.y) / s_.cell + 0.5) << 20) | static_cast<std::uint64_t>(turn);
 }
 
-void Lattice::push(int node) {
-  open_.push_back({nodes_[static_cast<std::size_t>(node)].estimate, node});
+void Lattice::push(int index) {
+  open_.push_back({node(index).estimate, index});
   std::push_heap(open_.begin(), open_.end());
 }
 
@@ -146,21 +154,21 @@ int Lattice::pop() {
     std::pop_heap(open_.begin(), open_.end());
     open_.pop_back();
     if (entry.estimate >= best_cost_) return -1;
-    const Node& node = nodes_[static_cast<std::size_t>(entry.node)];
-    if (!node.closed && node.estimate == entry.estimate) return entry.node;
+    const Node& next = node(entry.node);
+    if (next.stage != Stage::closed && next.estimate == entry.estimate) return entry.node;
   }
   return -1;
 }
 
 /// Tries the goal from a node; returns the cost of the cheapest word, clear or not.
 double Lattice::shoot(int index) {
-  const Node node = nodes_[static_cast<std::size_t>(index)];
+  const Node from = node(index);
   std::array<vehicle::ReedsSheppPath, kWords> words;
-  const int found = vehicle::reeds_shepp(node.pose, p_.goal, p_.costs.radius, p_.costs.driving, words);
+  const int found = vehicle::reeds_shepp(from.pose, p_.goal, p_.costs.radius, p_.costs.driving, words);
   std::array<double, kWords> cost{};
   std::array<std::size_t, kWords> order{};
   for (std::size_t k = 0; k < static_cast<std::size_t>(found); ++k) {
-    cost[k] = node.cost + p_.costs.of(node.pose, words[k].arcs(), arc_before(index));
+    cost[k] = from.cost + p_.costs.of(from.pose, words[k].arcs(), arc_before(from));
     order[k] = k;
   }
   std::sort(order.begin(), order.begin() + found,
@@ -168,7 +176,7 @@ double Lattice::shoot(int index) {
   for (std::size_t i = 0; i < static_cast<std::size_t>(found); ++i) {
     const std::size_t k = order[i];
     if (cost[k] >= best_cost_) break;
-    if (sweep(*p_.checker, node.pose, node.room, words[k].arcs()) < 0.0) continue;
+    if (sweep(*p_.checker, from.pose, from.room, words[k].arcs()) < 0.0) continue;
     best_cost_ = cost[k];
     best_node_ = index;
     best_word_ = words[k];
@@ -177,82 +185,108 @@ double Lattice::shoot(int index) {
   return found > 0 ? words[0].cost : 0.0;
 }
 
-void Lattice::try_move(int index, const Arc& move) {
-  const Node parent = nodes_[static_cast<std::size_t>(index)];
+void Lattice::add(int index, const Arc& move) {
+  const Node& parent = node(index);
   const geom::Pose2 pose = vehicle::drive(parent.pose, move);
   const double cost =
-      parent.cost + p_.costs.step(move, arc_before(index)) + p_.costs.bumps_along(parent.pose, move);
-  const std::uint64_t key = bin(pose);
-  const int known = bins_.at(key);
-  if (known >= 0 && nodes_[static_cast<std::size_t>(known)].cost <= cost) return;
-  const double room = p_.checker->sweep(parent.pose, parent.room, move, pose);
-  if (room < 0.0) return;
-  const double left = ahead(pose);
+      parent.cost + p_.costs.step(move, arc_before(parent)) + p_.costs.bumps_along(parent.pose, move);
+  const int known = bins_.at(bin(pose));
+  if (known >= 0 && node(known).cost <= cost) return;
+  const double straight = geom::norm(pose * p_.reference - target_);
+  const double left = std::max(straight, parent.left - std::abs(move.distance));
   const double estimate = cost + s_.heuristic_weight * left;
-  if (!(estimate < best_cost_)) return;
-  if (known >= 0) nodes_[static_cast<std::size_t>(known)].closed = true;
-  const int child = static_cast<int>(nodes_.size());
-  nodes_.push_back({pose, move, cost, estimate, room, index});
-  bins_.at(key) = child;
-  push(child);
+  if (estimate >= best_cost_) return;
+  nodes_.push_back({pose, move, cost, left, estimate, 0.0, index});
+  push(static_cast<int>(nodes_.size()) - 1);
+}
+
+/// Whether a guessed node can be reached and is the cheapest in its bin; then its estimate becomes a good
+/// one.
+bool Lattice::check(int index) {
+  Node& here = node(index);
+  int& in_bin = bins_.at(bin(here.pose));
+  if (in_bin >= 0 && node(in_bin).cost <= here.cost) return false;
+  const Node& parent = node(here.parent);
+  here.room = p_.checker->sweep(parent.pose, parent.room, here.arc, here.pose);
+  if (here.room < 0.0) return false;
+  here.left = ahead(here.pose);
+  if (here.left == kInfinity) return false;
+  if (in_bin >= 0) node(in_bin).stage = Stage::closed;
+  in_bin = index;
+  here.stage = Stage::checked;
+  here.estimate = std::max(here.estimate, here.cost + s_.heuristic_weight * here.left);
+  return true;
+}
+
+/// Shoots at the goal; true when the best way known is as good as this search needs.
+bool Lattice::try_goal(int index) {
+  const double free_cost = shoot(index);
+  Node& here = node(index);
+  here.stage = Stage::tried;
+  if (best_cost_ <= here.estimate) return true;
+  // The word is also a bound: a node that faces away from the goal goes back to its place in the queue.
+  here.estimate = std::max(here.estimate, here.cost + s_.heuristic_weight * free_cost);
+  return best_cost_ <= here.estimate;
 }
 
 void Lattice::expand(int index) {
-  nodes_[static_cast<std::size_t>(index)].closed = true;
-  for (const Arc& move : moves_.arcs) try_move(index, move);
+  node(index).stage = Stage::closed;
+  for (const Arc& move : moves_.arcs) add(index, move);
 }
 
 Route Lattice::route() const {
   Route route{p_.start, p_.goal, {}};
-  for (int at = best_node_; nodes_[static_cast<std::size_t>(at)].parent >= 0;
-       at = nodes_[static_cast<std::size_t>(at)].parent) {
-    route.arcs.push_back(nodes_[static_cast<std::size_t>(at)].arc);
-  }
+  for (int at = best_node_; node(at).parent >= 0; at = node(at).parent) route.arcs.push_back(node(at).arc);
   std::reverse(route.arcs.begin(), route.arcs.end());
   const auto word = best_word_.arcs();
   route.arcs.insert(route.arcs.end(), word.begin(), word.end());
   return route;
 }
 
-LatticeResult Lattice::run() {
-  LatticeResult result;
+/// Makes the root. False when there is nothing to search: a word leads straight to the goal, or there is no
+/// way at all.
+bool Lattice::start() {
   nodes_.clear();
   open_.clear();
   bins_.clear();
-  p_.to_go->focus(p_.start * p_.reference);
-  const double left = ahead(p_.start);
-  if (left == kInfinity) {
-    result.unreachable = true;
-    return result;
-  }
-  nodes_.push_back({p_.start, {}, 0.0, s_.heuristic_weight * left, p_.checker->room(p_.start), -1});
+  nodes_.push_back({p_.start, {}, 0.0, 0.0, 0.0, p_.checker->room(p_.start), -1, Stage::checked});
   bins_.at(bin(p_.start)) = 0;
+  if (try_goal(0)) return false;
+  p_.to_go->focus(p_.start * p_.reference);
+  Node& root = node(0);
+  root.left = ahead(p_.start);
+  root.estimate = std::max(root.estimate, s_.heuristic_weight * root.left);
+  if (root.left == kInfinity || best_cost_ <= root.estimate) return false;
   push(0);
+  return true;
+}
+
+LatticeResult Lattice::run() {
+  LatticeResult result;
   // Once a way is known a better one is looked for only about as long again.
   int limit = s_.max_expansions;
-  while (result.expansions < limit) {
-    if (result.expansions % 32 == 31 && p_.deadline.expired()) break;
-    const int index = pop();
-    if (index < 0) break;
-    Node& node = nodes_[static_cast<std::size_t>(index)];
-    if (!node.shot) {
-      node.shot = true;
+  for (int pops = 0, index = start() ? pop() : -1; index >= 0 && result.expansions < limit; index = pop()) {
+    if (++pops % 64 == 0 && p_.deadline.expired()) break;
+    if (node(index).stage == Stage::guessed && !check(index)) {
+      node(index).stage = Stage::closed;
+      continue;
+    }
+    // Whoever learns that it is further off than it looked waits for its turn.
+    const auto waits = [&] { return !open_.empty() && node(index).estimate > open_.front().estimate; };
+    if (!waits() && node(index).stage == Stage::checked) {
       const bool had_none = best_cost_ == kInfinity;
-      const double free_cost = shoot(index);
-      if (best_cost_ <= node.estimate) break;
+      if (try_goal(index)) break;
       if (had_none && best_cost_ < kInfinity) limit = std::min(limit, 2 * result.expansions + 50);
-      // The word is also a bound: a node that faces away from the goal goes back to its place in the queue.
-      const double estimate = node.cost + s_.heuristic_weight * free_cost;
-      if (estimate > node.estimate) {
-        node.estimate = estimate;
-        push(index);
-        continue;
-      }
+    }
+    if (waits()) {
+      push(index);
+      continue;
     }
     ++result.expansions;
     expand(index);
   }
   if (best_node_ >= 0) result.route = route();
+  result.unreachable = best_node_ < 0 && node(0).left == kInfinity;
   return result;
 }
 
