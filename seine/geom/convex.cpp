@@ -1,8 +1,9 @@
 #include "seine/geom/convex.hpp"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 
 namespace seine::geom {
@@ -14,34 +15,54 @@ constexpr double kTie = 1e-11;
 
 std::size_t next_index(std::size_t i, std::size_t count) { return i + 1 == count ? 0 : i + 1; }
 
-// The face of `a` that sees the smallest overlap with `b`: the largest over a's faces of the signed distance of b beyond it.
+// What the faces of `a` see of `b`: the largest over the faces of the signed distance of b beyond the face's line, and which
+// faces b is wholly beyond.
+struct Faces {
+  double order = -kInfinity;  // gap·|gap| of the widest: ordered like the gap, without a root for each face
+  std::size_t widest = 0;
+  std::uint64_t facing = 0;   // bit i mod 64 for face i
+
+  double gap() const { return order < 0.0 ? -std::sqrt(-order) : std::sqrt(order); }
+};
+
+template <std::size_t A, std::size_t B>
+Faces look(std::span<const Vec2, A> a, std::span<const Vec2, B> b) {
+  Faces faces;
+  if (a.size() < 2) return faces;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const Vec2 tail = a[i];
+    const Vec2 along = a[i + 1 == a.size() ? 0 : i + 1] - tail;
+    double side = -kInfinity;
+    for (const Vec2 v : b) side = std::max(side, cross(along, v - tail));
+    const double order = -side * std::abs(side) / squared_norm(along);
+    if (order > faces.order) faces.order = order, faces.widest = i;
+    faces.facing |= std::uint64_t{side <= 0.0} << (i & 63);
+  }
+  return faces;
+}
+
+// Rectangles are most of what is asked: loops of known length are twice as fast.
+Faces look(std::span<const Vec2> a, std::span<const Vec2> b) {
+  if (a.size() == 4 && b.size() == 4) return look(a.first<4>(), b.first<4>());
+  if (a.size() == 4) return look(a.first<4>(), b);
+  if (b.size() == 4) return look(a, b.first<4>());
+  return look<std::dynamic_extent, std::dynamic_extent>(a, b);
+}
+
 struct Face {
-  double gap = -kInfinity;
+  double gap = 0.0;
   std::size_t edge = 0;
   Vec2 normal;
 };
 
-Face widest_face(std::span<const Vec2> a, std::span<const Vec2> b) {
-  Face best;
-  if (a.size() < 2) return best;
-  Vec2 tail = a.back();
-  std::size_t edge = a.size() - 1;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    const Vec2 along = a[i] - tail;
-    const Vec2 outward{along.y, -along.x};
-    double least = kInfinity;
-    for (const Vec2 v : b) least = std::min(least, dot(outward, v));
-    const double length = norm(along);
-    const double gap = (least - dot(outward, tail)) / length;
-    if (gap > best.gap) best = {gap, edge, outward / length};
-    tail = a[i];
-    edge = i;
-  }
-  return best;
+Face widest_face(std::span<const Vec2> a, const Faces& seen) {
+  const Vec2 along = a[next_index(seen.widest, a.size())] - a[seen.widest];
+  return {seen.gap(), seen.widest, Vec2{along.y, -along.x} / norm(along)};
 }
 
 // Where the part of b that touches the face's supporting line lies over the edge of a: the middle of their overlap, as a point
-// on the edge. `inside` tells whether there is one; only then is the gap of the face the Euclidean distance.
+// on the edge. `inside` tells whether there is one; only then is the gap of the face the Euclidean distance. (In an overlap there
+// always is, but for rounding.)
 struct Foot {
   bool inside = false;
   Vec2 on_edge;
@@ -60,9 +81,8 @@ Foot foot_on(std::span<const Vec2> a, std::span<const Vec2> b, const Face& face)
     low = std::min(low, t);
     high = std::max(high, t);
   }
-  if (high < 0.0 || low > length) return {};
-  const double t = 0.5 * (std::max(low, 0.0) + std::min(high, length));
-  return {true, tail + t * along};
+  const double t = std::clamp(0.5 * (std::max(low, 0.0) + std::min(high, length)), 0.0, length);
+  return {low <= length && high >= 0.0, tail + t * along};
 }
 
 struct Pair {
@@ -71,34 +91,50 @@ struct Pair {
   Vec2 on_b;
 };
 
-// The nearest pair of a point on an edge of `a` and a vertex of `b`, over the edges that b is wholly beyond: when a and b are
-// apart, the nearest pair has such an edge in one of the two. `every_edge` drops that restriction (cores without an inside).
-void nearest_over_edges(std::span<const Vec2> a, std::span<const Vec2> b, bool every_edge, bool swapped, Pair& best) {
-  Vec2 tail = a.back();
-  for (const Vec2 head : a) {
-    const Vec2 along = head - tail;
-    double side = -kInfinity;
-    for (const Vec2 v : b) side = std::max(side, cross(along, v - tail));
-    if (every_edge || side <= 0.0) {
-      const double length2 = squared_norm(along);
-      const double inverse = length2 > 0.0 ? 1.0 / length2 : 0.0;
-      for (const Vec2 v : b) {
-        const double t = std::clamp(dot(along, v - tail) * inverse, 0.0, 1.0);
-        const Vec2 foot = tail + t * along;
-        const double squared = squared_norm(v - foot);
-        if (squared < best.squared) best = swapped ? Pair{squared, v, foot} : Pair{squared, foot, v};
-      }
+// The nearest pair of a point on an edge of `a` and a vertex of `b`, over the facing edges: when a and b are apart, the nearest pair
+// has such an edge in one of the two.
+void nearest_over_edges(std::span<const Vec2> a, std::span<const Vec2> b, std::uint64_t facing, bool swapped, Pair& best) {
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if ((facing >> (i & 63) & 1U) == 0) continue;
+    const Vec2 tail = a[i];
+    const Vec2 along = a[next_index(i, a.size())] - tail;
+    const double length2 = squared_norm(along);
+    const double inverse = length2 > 0.0 ? 1.0 / length2 : 0.0;
+    for (const Vec2 v : b) {
+      const double t = std::clamp(dot(along, v - tail) * inverse, 0.0, 1.0);
+      const Vec2 foot = tail + t * along;
+      const double squared = squared_norm(v - foot);
+      if (squared < best.squared) best = swapped ? Pair{squared, v, foot} : Pair{squared, foot, v};
     }
-    tail = head;
   }
 }
 
-Pair nearest_pair(std::span<const Vec2> a, std::span<const Vec2> b) {
-  const bool flat = a.size() < 3 && b.size() < 3;
+Pair nearest_pair(std::span<const Vec2> a, const Faces& of_a, std::span<const Vec2> b, const Faces& of_b) {
+  const bool flat = a.size() < 3 && b.size() < 3;  // without an inside, a gap of 0 has no facing side
   Pair best;
-  if (a.size() > 1 || flat) nearest_over_edges(a, b, flat, false, best);
-  if (b.size() > 1 || flat) nearest_over_edges(b, a, flat, true, best);
+  nearest_over_edges(a, b, flat ? ~std::uint64_t{0} : of_a.facing, false, best);
+  nearest_over_edges(b, a, flat ? ~std::uint64_t{0} : of_b.facing, true, best);
   return best;
+}
+
+// The same without the points: the least squared distance over the facing edges.
+template <std::size_t B>
+double least_squared(std::span<const Vec2> a, const Faces& of_a, std::span<const Vec2, B> b) {
+  double least = kInfinity;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if ((of_a.facing >> (i & 63) & 1U) == 0) continue;
+    const Vec2 tail = a[i];
+    const Vec2 along = a[next_index(i, a.size())] - tail;
+    const double inverse = 1.0 / squared_norm(along);
+    for (const Vec2 v : b) {
+      const double t = std::min(std::max(dot(along, v - tail) * inverse, 0.0), 1.0);
+      least = std::min(least, squared_norm(v - tail - t * along));
+    }
+  }
+  return least;
+}
+double least_squared(std::span<const Vec2> a, const Faces& of_a, std::span<const Vec2> b) {
+  return b.size() == 4 ? least_squared(a, of_a, b.first<4>()) : least_squared<std::dynamic_extent>(a, of_a, b);
 }
 
 // Cores without an inside: points and segments. A segment's own direction must also be tried as a separating axis.
@@ -114,78 +150,7 @@ bool flat_and_apart(std::span<const Vec2> a, std::span<const Vec2> b) {
   return beyond(a, b) || beyond(b, a);
 }
 
-// Small polygons with their loops made of fixed length and without branches, so that they vectorise: the last vertex repeated up
-// to N, coordinates apart. A repeated vertex is an edge of length 0: its gap is −∞ and its points are the vertex.
-template <std::size_t N>
-struct Packed {
-  std::array<double, N + 1> x, y;
-  std::array<double, N> along_x, along_y, inverse_squared;
-
-  explicit Packed(std::span<const Vec2> polygon) {
-    for (std::size_t i = 0; i < N; ++i) {
-      const Vec2 v = polygon[std::min(i, polygon.size() - 1)];
-      x[i] = v.x, y[i] = v.y;
-    }
-    x[N] = x[0], y[N] = y[0];
-    for (std::size_t i = 0; i < N; ++i) {
-      along_x[i] = x[i + 1] - x[i];
-      along_y[i] = y[i + 1] - y[i];
-      const double squared = along_x[i] * along_x[i] + along_y[i] * along_y[i];
-      inverse_squared[i] = squared > 0.0 ? 1.0 / squared : 0.0;
-    }
-  }
-};
-
-template <std::size_t N, std::size_t M>
-double packed_gap(const Packed<N>& a, const Packed<M>& b) {
-  std::array<double, N> side;  // how far left of the edge's line the leftmost vertex of b is, times the edge's length
-  side.fill(-kInfinity);
-  for (std::size_t j = 0; j < M; ++j) {
-    for (std::size_t i = 0; i < N; ++i) {
-      const double z = a.along_x[i] * (b.y[j] - a.y[i]) - a.along_y[i] * (b.x[j] - a.x[i]);
-      side[i] = z > side[i] ? z : side[i];
-    }
-  }
-  double gap = -kInfinity;
-  for (std::size_t i = 0; i < N; ++i) {
-    const double edge_gap = a.inverse_squared[i] > 0.0 ? -side[i] * std::sqrt(a.inverse_squared[i]) : -kInfinity;
-    gap = edge_gap > gap ? edge_gap : gap;
-  }
-  return gap;
-}
-
-// The least squared distance of a vertex of b to an edge of a.
-template <std::size_t N, std::size_t M>
-double packed_squared(const Packed<N>& a, const Packed<M>& b) {
-  std::array<double, N> least;
-  least.fill(kInfinity);
-  for (std::size_t j = 0; j < M; ++j) {
-    for (std::size_t i = 0; i < N; ++i) {
-      const double dx = b.x[j] - a.x[i];
-      const double dy = b.y[j] - a.y[i];
-      const double t = (dx * a.along_x[i] + dy * a.along_y[i]) * a.inverse_squared[i];
-      const double low = t > 0.0 ? t : 0.0;
-      const double at = low < 1.0 ? low : 1.0;
-      const double ex = dx - at * a.along_x[i];
-      const double ey = dy - at * a.along_y[i];
-      const double squared = ex * ex + ey * ey;
-      least[i] = squared < least[i] ? squared : least[i];
-    }
-  }
-  return *std::min_element(least.begin(), least.end());
-}
-
-template <std::size_t N, std::size_t M>
-double packed_distance(std::span<const Vec2> first, std::span<const Vec2> second, double enough) {
-  const Packed<N> a(first);
-  const Packed<M> b(second);
-  const double gap = std::max(packed_gap(a, b), packed_gap(b, a));
-  if (gap <= 0.0 || gap >= enough) return gap;
-  return std::sqrt(std::min(packed_squared(a, b), packed_squared(b, a)));
-}
-
-Separation apart(std::span<const Vec2> a, std::span<const Vec2> b, Vec2 fallback_normal) {
-  const Pair pair = nearest_pair(a, b);
+Separation between(const Pair& pair, Vec2 fallback_normal) {
   const double d = std::sqrt(pair.squared);
   const Vec2 normal = d > 1e-12 ? (pair.on_b - pair.on_a) / d : fallback_normal;
   return {d, normal, pair.on_a, pair.on_b};
@@ -224,20 +189,16 @@ std::vector<Vec2> convex_hull(std::vector<Vec2> points) {
 }
 
 Separation separation(std::span<const Vec2> a, std::span<const Vec2> b) {
-  const Face of_a = widest_face(a, b);
-  const Face of_b = widest_face(b, a);
-  const bool by_a = of_a.gap >= of_b.gap;
-  const Face& face = by_a ? of_a : of_b;
-  if (face.gap == -kInfinity) return apart(a, b, {1.0, 0.0});  // two points
+  const Faces of_a = look(a, b);
+  const Faces of_b = look(b, a);
+  const bool by_a = of_a.order >= of_b.order;
+  if (a.size() == 1 && b.size() == 1) return between(nearest_pair(a, of_a, b, of_b), {1.0, 0.0});
+  const Face face = by_a ? widest_face(a, of_a) : widest_face(b, of_b);
   const Vec2 normal = by_a ? face.normal : -face.normal;
   const bool flat = a.size() < 3 && b.size() < 3;
-  if (flat && (face.gap >= -kTie || flat_and_apart(a, b))) return apart(a, b, normal);
+  if (flat && (face.gap >= -kTie || flat_and_apart(a, b))) return between(nearest_pair(a, of_a, b, of_b), normal);
   const Foot foot = by_a ? foot_on(a, b, face) : foot_on(b, a, face);
-  if (!foot.inside && face.gap > 0.0) return apart(a, b, normal);
-  if (!foot.inside) {  // an overlap always has its foot inside, but for rounding: any supporting vertex will do
-    const Pair pair = nearest_pair(a, b);
-    if (pair.squared < kInfinity) return {face.gap, normal, pair.on_a, pair.on_b};
-  }
+  if (!foot.inside && face.gap > 0.0) return between(nearest_pair(a, of_a, b, of_b), normal);
   const Vec2 opposite = foot.on_edge + face.gap * face.normal;
   return by_a ? Separation{face.gap, normal, foot.on_edge, opposite} : Separation{face.gap, normal, opposite, foot.on_edge};
 }
@@ -253,16 +214,18 @@ Separation separation(const Convex& a, const Convex& b) {
 double distance(std::span<const Vec2> a, std::span<const Vec2> b) { return distance_up_to(a, b, kInfinity); }
 
 double distance_up_to(std::span<const Vec2> a, std::span<const Vec2> b, double enough) {
+  const double enough_order = enough * std::abs(enough);
+  const Faces of_a = look(a, b);
+  if (of_a.order >= enough_order && of_a.order > 0.0) return of_a.gap();
+  const Faces of_b = look(b, a);
+  const bool by_a = of_a.order >= of_b.order;
+  const Faces& widest = by_a ? of_a : of_b;
   if (a.size() < 3 && b.size() < 3) {
-    const double gap = std::max(widest_face(a, b).gap, widest_face(b, a).gap);
-    return gap >= -kTie || flat_and_apart(a, b) ? std::sqrt(nearest_pair(a, b).squared) : gap;
+    if (widest.gap() < -kTie && !flat_and_apart(a, b)) return widest.gap();
+    return std::sqrt(nearest_pair(a, of_a, b, of_b).squared);
   }
-  if (a.size() <= 4 && b.size() <= 4) return packed_distance<4, 4>(a, b, enough);
-  if (a.size() <= 4 && b.size() <= 8) return packed_distance<4, 8>(a, b, enough);
-  if (a.size() <= 8 && b.size() <= 4) return packed_distance<4, 8>(b, a, enough);
-  if (a.size() <= 8 && b.size() <= 8) return packed_distance<8, 8>(a, b, enough);
-  const double gap = std::max(widest_face(a, b).gap, widest_face(b, a).gap);
-  return gap <= 0.0 || gap >= enough ? gap : std::sqrt(nearest_pair(a, b).squared);
+  if (widest.order <= 0.0 || widest.order >= enough_order) return widest.gap();
+  return std::sqrt(std::min(least_squared(a, of_a, b), least_squared(b, of_b, a)));
 }
 
 }  // namespace seine::geom
