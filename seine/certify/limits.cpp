@@ -1,0 +1,149 @@
+#include "seine/certify/limits.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "seine/certify/tolerances.hpp"
+
+namespace seine::certify {
+namespace {
+
+// A cell halved this often is 2^-40 of itself: what is still open then hangs on rounding.
+constexpr int kDeepest = 40;
+// A value met beyond the limit is followed up until nothing in its cell is this much worse, relative to the
+// limit.
+constexpr double kWorstResolution = 1e-3;
+enum RuleIndex : std::size_t { kForward, kReverse, kBackwards };
+
+const char* describe(Kind kind) {
+  switch (kind) {
+    case Kind::speed:
+      return "drives forwards at %.6g m/s; its limit is %.6g";
+    case Kind::reverse_speed:
+      return "drives backwards at %.6g m/s; its limit is %.6g";
+    case Kind::acceleration:
+      return "accelerates or brakes by %.6g m/s²; its limit is %.6g";
+    case Kind::lateral_acceleration:
+      return "has a lateral acceleration of %.6g m/s²; its limit is %.6g";
+    case Kind::curvature:
+      return "turns with a curvature of %.6g 1/m; its limit is %.6g";
+    case Kind::steering_rate:
+      return "turns its wheel at %.6g rad/s; its limit is %.6g";
+    default:
+      return "moves against its gear at %.6g m/s; rounding is granted %.6g";
+  }
+}
+
+}  // namespace
+
+LimitProof::Rule LimitProof::rule(Kind kind, Quantity quantity, double limit) {
+  return {.kind = kind,
+          .quantity = quantity,
+          .sign = 0.0,
+          .limit = limit,
+          .seen = limit * (1.0 + tolerance::kLimitSeen) + tolerance::kLimitSeenFloor,
+          .proved = limit * (1.0 + tolerance::kLimitProved) + tolerance::kLimitProvedFloor,
+          .episodes = {}};
+}
+
+LimitProof::LimitProof(Context& context, int robot) : context_(context), robot_(robot) {
+  const vehicle::Model& model =
+      context.scenario.model_of(context.scenario.robots[static_cast<std::size_t>(robot)]);
+  const vehicle::Limits& limits = model.limits;
+  wheelbase_ = model.wheelbase;
+  reach_ = model.reach();
+  rules_ = {rule(Kind::speed, pace, limits.speed),
+            rule(Kind::reverse_speed, pace, limits.reverse_speed),
+            rule(Kind::gear, pace, tolerance::kSpeed),
+            rule(Kind::acceleration, tangential, limits.acceleration),
+            rule(Kind::lateral_acceleration, lateral, limits.lateral_acceleration),
+            rule(Kind::curvature, curvature, model.max_curvature()),
+            rule(Kind::steering_rate, steering_rate, limits.steering_rate)};
+  rules_[kBackwards].sign = -1.0;
+  rules_[kBackwards].seen = tolerance::kBackwardsSeen;
+  rules_[kBackwards].proved = tolerance::kSpeed;
+}
+
+double LimitProof::measure(const Rule& rule, const Sample& sample) {
+  const double value = sample.value[rule.quantity];
+  return rule.sign == 0.0 ? std::abs(value) : rule.sign * value;
+}
+
+void LimitProof::check(const Stretch& stretch, const Sample& a, const Sample& b, const Bends& bends,
+                       bool forwards) {
+  Mask mask = 0;
+  for (std::size_t r = 0; r < kRules; ++r) {
+    rules_[r].worst = 0.0;
+    if (!std::isinf(rules_[r].limit)) mask |= 1u << r;
+  }
+  mask &= ~(1u << (stretch.gear > 0.0 ? kReverse : kForward));
+  if (forwards) mask &= ~(1u << kBackwards);
+  cell_begin_ = stretch.clock(a.w);
+  cell_end_ = stretch.clock(b.w);
+  mask = unproved(mask, stretch, a, b, bends);
+  if (mask != 0) refine(mask, stretch, a, b, 0);
+}
+
+LimitProof::Mask LimitProof::unproved(Mask mask, const Stretch& stretch, const Sample& a, const Sample& b,
+                                      const Bends& bends) {
+  Mask open = 0;
+  const double duration = (b.w - a.w) * stretch.h, range = b.u - a.u;
+  for (std::size_t r = 0; r < kRules; ++r) {
+    if ((mask & (1u << r)) == 0) continue;
+    Rule& rule = rules_[r];
+    const double at_a = measure(rule, a), at_b = measure(rule, b), top = std::max(at_a, at_b);
+    if (!(top <= rule.seen)) {
+      const double time = stretch.clock(at_a >= at_b ? a.w : b.w);
+      rule.worst = std::max(rule.worst, top);
+      rule.episodes.offer(cell_begin_, cell_end_, time, top, top - rule.limit);
+    }
+    const double width = rule.quantity == curvature ? range : duration;
+    const double bound = top + 0.125 * bends.value[rule.quantity] * width * width;
+    const double wanted = rule.worst > 0.0 ? rule.worst + kWorstResolution * rule.limit : rule.proved;
+    if (!(bends.least_length > 0.0 && bound <= wanted)) open |= 1u << r;
+  }
+  return open;
+}
+
+void LimitProof::refine(Mask mask, const Stretch& stretch, const Sample& a, const Sample& b, int depth) {
+  if (depth >= kDeepest || context_.expired.load(std::memory_order_relaxed)) {
+    for (std::size_t r = 0; r < kRules; ++r) {
+      if ((mask & (1u << r)) == 0 || rules_[r].worst > 0.0 || rules_[r].undecided) continue;
+      rules_[r].undecided = true;
+      rules_[r].undecided_time = stretch.clock(a.w);
+    }
+    return;
+  }
+  const Sample middle = stretch.sample(0.5 * (a.w + b.w), wheelbase_);
+  const std::array<const Sample*, 3> ends{&a, &middle, &b};
+  for (std::size_t half = 0; half < 2; ++half) {
+    const Sample &from = *ends[half], &to = *ends[half + 1];
+    const Bends bends = stretch.bends(from.w, to.w, wheelbase_, reach_);
+    if (const Mask open = unproved(mask, stretch, from, to, bends); open != 0) {
+      refine(open, stretch, from, to, depth + 1);
+    }
+  }
+}
+
+std::vector<Finding> LimitProof::findings() const {
+  std::vector<Finding> findings;
+  const std::string name = context_.robot_name(robot_);
+  for (const Rule& rule : rules_) {
+    for (const Episodes::Episode& e : rule.episodes.all()) {
+      char what[160];
+      std::snprintf(what, sizeof what, describe(rule.kind), e.value, rule.limit);
+      findings.push_back({{rule.kind, e.time, robot_, -1, e.value, rule.limit,
+                           format("%s at t = %.4f s %s", name.c_str(), e.time, what)},
+                          e.excess});
+    }
+    if (rule.undecided) {
+      findings.push_back({{Kind::undecided, rule.undecided_time, robot_, -1, 0.0, rule.limit,
+                           format("%s: the limit of its %s could not be proved at t = %.4f s", name.c_str(),
+                                  name_of(rule.kind), rule.undecided_time)},
+                          0.0});
+    }
+  }
+  return findings;
+}
+
+}  // namespace seine::certify

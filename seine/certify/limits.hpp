@@ -1,0 +1,52 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "seine/certify/report.hpp"
+#include "seine/certify/stretch.hpp"
+
+namespace seine::certify {
+
+/// Proves one car's limits, cell by cell in order of time: each quantity stays within max(|f(a)|, |f(b)|) + ⅛
+/// sup|f''| (b − a)² on [a, b], and cells are halved until that is within the limit or a value beyond it has
+/// been met.
+class LimitProof {
+ public:
+  LimitProof(Context& context, int robot);
+
+  /// One cell. @param forwards true when u̇ ≥ 0 is known already.
+  void check(const Stretch& stretch, const Sample& a, const Sample& b, const Bends& bends, bool forwards);
+  std::vector<Finding> findings() const;
+
+ private:
+  struct Rule {
+    Kind kind;
+    Quantity quantity;
+    double sign;  ///< 0: of the magnitude; −1: of minus the value
+    double limit;
+    double seen;             ///< a value beyond it is a violation
+    double proved;           ///< what is to be proved
+    double worst = 0.0;      ///< in the cell at hand, 0 when kept
+    bool undecided = false;  ///< somewhere
+    double undecided_time = 0.0;
+    Episodes episodes;
+  };
+  using Mask = unsigned;
+  static constexpr std::size_t kRules = 7;
+
+  static Rule rule(Kind kind, Quantity quantity, double limit);
+  static double measure(const Rule& rule, const Sample& sample);
+  /// Of the rules in `mask`, those not proved on the cell.
+  Mask unproved(Mask mask, const Stretch& stretch, const Sample& a, const Sample& b, const Bends& bends);
+  void refine(Mask mask, const Stretch& stretch, const Sample& a, const Sample& b, int depth);
+
+  Context& context_;
+  int robot_;
+  double wheelbase_;
+  double reach_;
+  std::array<Rule, kRules> rules_;
+  double cell_begin_ = 0.0, cell_end_ = 0.0;
+};
+
+}  // namespace seine::certify

@@ -1,0 +1,100 @@
+#include "seine/certify/report.hpp"
+
+#include <algorithm>
+#include <cstdarg>
+#include <cstdio>
+#include <tuple>
+
+namespace seine::certify {
+
+const char* name_of(Kind kind) {
+  switch (kind) {
+    case Kind::malformed:
+      return "malformed";
+    case Kind::start:
+      return "start";
+    case Kind::goal:
+      return "goal";
+    case Kind::continuity:
+      return "continuity";
+    case Kind::rest:
+      return "rest";
+    case Kind::gear:
+      return "gear";
+    case Kind::speed:
+      return "speed";
+    case Kind::reverse_speed:
+      return "reverse speed";
+    case Kind::acceleration:
+      return "acceleration";
+    case Kind::lateral_acceleration:
+      return "lateral acceleration";
+    case Kind::curvature:
+      return "curvature";
+    case Kind::steering_rate:
+      return "steering rate";
+    case Kind::robot_clearance:
+      return "robot clearance";
+    case Kind::obstacle_clearance:
+      return "obstacle clearance";
+    case Kind::moving_obstacle_clearance:
+      return "moving obstacle clearance";
+    case Kind::bounds:
+      return "bounds";
+    case Kind::undecided:
+      return "undecided";
+  }
+  return "unknown";
+}
+
+void Episodes::offer(double t0, double t1, double time, double value, double excess) {
+  constexpr double kTouching = 1e-9;  // s
+  if (episodes_.empty() || t0 > episodes_.back().t1 + kTouching) {
+    episodes_.push_back({t0, t1, time, value, excess});
+    return;
+  }
+  Episode& last = episodes_.back();
+  last.t1 = std::max(last.t1, t1);
+  if (excess > last.excess) last.time = time, last.value = value, last.excess = excess;
+}
+
+std::string Context::robot_name(int robot) const {
+  const auto index = static_cast<std::size_t>(robot);
+  if (index < scenario.robots.size() && !scenario.robots[index].name.empty())
+    return scenario.robots[index].name;
+  return "robot " + std::to_string(robot + 1);
+}
+
+std::string Context::obstacle_name(int obstacle) const {
+  const std::string& name = scenario.obstacles[static_cast<std::size_t>(obstacle)].name;
+  return name.empty() ? "obstacle " + std::to_string(obstacle + 1) : name;
+}
+
+std::string format(const char* pattern, ...) {
+  char text[512];
+  va_list arguments;
+  va_start(arguments, pattern);
+  std::vsnprintf(text, sizeof text, pattern, arguments);
+  va_end(arguments);
+  return text;
+}
+
+std::vector<Violation> worst_of_each(std::vector<Finding> findings, int per_sort) {
+  const auto sort_of = [](const Finding& f) {
+    return std::tuple(f.violation.kind, f.violation.robot, f.violation.other);
+  };
+  std::stable_sort(findings.begin(), findings.end(), [&](const Finding& a, const Finding& b) {
+    return sort_of(a) != sort_of(b) ? sort_of(a) < sort_of(b) : a.excess > b.excess;
+  });
+  std::vector<Violation> kept;
+  int same = 0;
+  for (std::size_t i = 0; i < findings.size(); ++i) {
+    same = i > 0 && sort_of(findings[i]) == sort_of(findings[i - 1]) ? same + 1 : 0;
+    if (same < std::max(1, per_sort)) kept.push_back(findings[i].violation);
+  }
+  std::stable_sort(kept.begin(), kept.end(),
+                   [](const Violation& a, const Violation& b) { return a.time < b.time; });
+  return kept;
+}
+
+}  // namespace seine::certify
