@@ -108,7 +108,8 @@ void StaticMap::build_buckets() {
   if (extent.empty()) {
     for (const Piece& piece : pieces_) extent.include(piece.box.low), extent.include(piece.box.high);
   }
-  if (extent.empty()) extent = {{0.0, 0.0}, {1.0, 1.0}};
+  const bool usable = !extent.empty() && std::isfinite(geom::squared_norm(extent.size()));
+  if (!usable) extent = {{0.0, 0.0}, {1.0, 1.0}};  // `check` complains; here nothing may break
   const Vec2 size = extent.size();
   const double area = size.x * size.y;
   const double apart = std::sqrt(area / static_cast<double>(std::max<std::size_t>(pieces_.size(), 1)));
@@ -142,12 +143,13 @@ void StaticMap::build_buckets() {
   }
 }
 
+// (The order of the arguments sends NaN to bucket 0.)
 int StaticMap::column_of(double x) const {
-  return static_cast<int>(std::clamp((x - low_.x) * inverse_, 0.0, static_cast<double>(columns_ - 1)));
+  return static_cast<int>(std::min(std::max(0.0, (x - low_.x) * inverse_), static_cast<double>(columns_ - 1)));
 }
 
 int StaticMap::row_of(double y) const {
-  return static_cast<int>(std::clamp((y - low_.y) * inverse_, 0.0, static_cast<double>(rows_ - 1)));
+  return static_cast<int>(std::min(std::max(0.0, (y - low_.y) * inverse_), static_cast<double>(rows_ - 1)));
 }
 
 StaticMap::Range StaticMap::range_of(const Box& box) const {

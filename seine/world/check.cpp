@@ -1,0 +1,278 @@
+#include "seine/world/check.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdio>
+#include <map>
+#include <numbers>
+#include <optional>
+
+#include "seine/geom/polygon.hpp"
+
+namespace seine::world {
+namespace {
+
+using geom::Convex;
+using geom::Vec2;
+
+constexpr double kTolerance = 1e-6;  // m
+
+std::string number(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return text;
+}
+
+std::string metres(double value) { return number(value) + " m"; }
+
+std::string name_of(const Robot& robot, std::size_t index) {
+  return robot.name.empty() ? "robot " + std::to_string(index + 1) : robot.name;
+}
+
+std::string name_of(const Obstacle& obstacle, std::size_t index) {
+  return obstacle.name.empty() ? "obstacle " + std::to_string(index + 1) : obstacle.name;
+}
+
+bool finite(const geom::Pose2& pose) {
+  return std::isfinite(pose.x) && std::isfinite(pose.y) && std::isfinite(pose.heading);
+}
+
+using Complaints = std::vector<std::string>;
+
+// True when `value` is fine. NaN never is; infinity only where a limit may be absent.
+bool require(bool fine, const std::string& what, double value, const char* expected, Complaints& out) {
+  if (!fine) out.push_back(what + " is " + number(value) + ", expected " + expected);
+  return fine;
+}
+
+bool check_footprint(const vehicle::Model& model, Complaints& out) {
+  const std::string what = "the footprint of model " + model.name;
+  if (const std::string why = geom::why_not_simple(model.footprint); !why.empty()) {
+    out.push_back(what + " is not a simple polygon: " + why);
+  } else if (geom::signed_area(model.footprint) < 0.0) {
+    out.push_back(what + " is clockwise, expected counter-clockwise");
+  } else if (!geom::is_convex(model.footprint)) {
+    out.push_back(what + " is not convex");
+  } else {
+    return true;
+  }
+  return false;
+}
+
+bool check_model(const vehicle::Model& model, Complaints& out) {
+  const std::string of = " of model " + model.name;
+  const vehicle::Limits& limits = model.limits;
+  const auto positive = [&](double value, const char* what) {
+    return require(value > 0.0 && std::isfinite(value), what + of, value, "a positive number", out);
+  };
+  const auto positive_or_none = [&](double value, const char* what) {
+    return require(value > 0.0, what + of, value, "a positive number", out);
+  };
+  bool fine = check_footprint(model, out);
+  fine &= positive(model.wheelbase, "the wheelbase");
+  fine &= positive(limits.speed, "the speed limit");
+  fine &= require(limits.reverse_speed >= 0.0 && std::isfinite(limits.reverse_speed), "the reverse speed limit" + of,
+                  limits.reverse_speed, "zero or more", out);
+  fine &= positive(limits.acceleration, "the acceleration limit");
+  fine &= positive_or_none(limits.lateral_acceleration, "the lateral acceleration limit");
+  fine &= require(limits.steering > 0.0 && limits.steering < 0.5 * std::numbers::pi, "the steering limit" + of,
+                  limits.steering, "an angle between 0 and pi/2 rad", out);
+  fine &= positive_or_none(limits.steering_rate, "the steering rate limit");
+  return fine;
+}
+
+void check_world(const Scenario& scenario, Complaints& out) {
+  const geom::Box& b = scenario.bounds;
+  if (!(b.low.x < b.high.x && b.low.y < b.high.y && std::isfinite(b.size().x) && std::isfinite(b.size().y))) {
+    out.push_back("the bounds [" + number(b.low.x) + ", " + number(b.low.y) + ", " + number(b.high.x) + ", " +
+                  number(b.high.y) + "] hold no area, expected [xmin, ymin, xmax, ymax]");
+  }
+  for (const auto& [what, margin] : {std::pair{"the margin between robots", scenario.margins.robot},
+                                     std::pair{"the margin to obstacles", scenario.margins.obstacle}}) {
+    require(margin >= 0.0 && std::isfinite(margin), what, margin, "zero or more", out);
+  }
+}
+
+bool check_obstacle(const Obstacle& obstacle, const std::string& name, Complaints& out) {
+  if (const auto* circle = std::get_if<Circle>(&obstacle.shape)) {
+    if (!require(circle->radius > 0.0 && std::isfinite(circle->radius), "the radius of " + name, circle->radius,
+                 "a positive number", out)) {
+      return false;
+    }
+  } else if (const std::string why = geom::why_not_simple(std::get<std::vector<Vec2>>(obstacle.shape)); !why.empty()) {
+    out.push_back(name + " is not a simple polygon: " + why);
+    return false;
+  }
+  for (std::size_t i = 0; i < obstacle.motion.size(); ++i) {
+    const Waypoint& waypoint = obstacle.motion[i];
+    const bool later = i == 0 || waypoint.t > obstacle.motion[i - 1].t;
+    if (!std::isfinite(waypoint.t) || !finite(waypoint.pose) || !later) {
+      out.push_back("waypoint " + std::to_string(i + 1) + " of " + name + " at t = " + number(waypoint.t) +
+                    " s is not finite or not later than the one before");
+      return false;
+    }
+  }
+  return true;
+}
+
+// A moving obstacle's pose at t = 0, the start of the common clock.
+geom::Pose2 pose_at_start(const std::vector<Waypoint>& motion) {
+  const auto after = std::find_if(motion.begin(), motion.end(), [](const Waypoint& w) { return w.t >= 0.0; });
+  if (after == motion.begin()) return motion.front().pose;
+  if (after == motion.end()) return motion.back().pose;
+  const Waypoint& a = *(after - 1);
+  const double part = -a.t / (after->t - a.t);
+  return {a.pose.x + part * (after->pose.x - a.pose.x), a.pose.y + part * (after->pose.y - a.pose.y),
+          a.pose.heading + part * geom::wrap_angle(after->pose.heading - a.pose.heading)};
+}
+
+std::vector<Convex> body_of(const Obstacle& obstacle) {
+  if (const auto* circle = std::get_if<Circle>(&obstacle.shape)) return {{{circle->center}, circle->radius}};
+  std::vector<Convex> parts;
+  for (std::vector<Vec2>& part : geom::convex_parts(std::get<std::vector<Vec2>>(obstacle.shape))) {
+    parts.push_back({std::move(part), 0.0});
+  }
+  return parts;
+}
+
+// A car at one of its ends.
+struct Stand {
+  std::string who;   // "car0 at its start"
+  Convex footprint;  // in the world
+  geom::Box box;
+};
+
+Stand stand_of(const Scenario& scenario, std::size_t robot, bool goal) {
+  const Robot& r = scenario.robots[robot];
+  Stand stand{name_of(r, robot) + (goal ? " at its goal" : " at its start"),
+              geom::placed({scenario.model_of(r).footprint, 0.0}, goal ? r.goal : r.start), {}};
+  stand.box = stand.footprint.box();
+  return stand;
+}
+
+// One sentence on a distance that is too small.
+void complain_if_near(const std::string& who, const std::string& other, double distance, double margin, Complaints& out) {
+  if (distance >= margin - kTolerance) return;
+  if (distance < -kTolerance) {
+    out.push_back(who + " overlaps " + other + " by " + metres(-distance));
+  } else {
+    out.push_back(who + " is " + metres(std::max(distance, 0.0)) + " from " + other + ", nearer than the margin of " +
+                  metres(margin));
+  }
+}
+
+void check_bounds(const Stand& stand, const geom::Box& bounds, double margin, Complaints& out) {
+  const double inside = std::min(std::min(stand.box.low.x - bounds.low.x, stand.box.low.y - bounds.low.y),
+                                 std::min(bounds.high.x - stand.box.high.x, bounds.high.y - stand.box.high.y));
+  if (inside < -kTolerance) {
+    out.push_back(stand.who + " sticks out of the bounds by " + metres(-inside));
+  } else {
+    complain_if_near(stand.who, "the bounds", inside, margin, out);
+  }
+}
+
+void check_static(const Stand& stand, const StaticMap& map, double margin, Complaints& out) {
+  struct Worst {
+    double distance;
+    int piece;
+  };
+  std::map<int, Worst> worst;  // by obstacle, the map being −1: an obstacle of many pieces is one complaint
+  map.for_each_near(stand.box.inflated(margin), [&](const StaticMap::Piece& piece) {
+    const double distance = geom::separation(stand.footprint, piece.shape).distance;
+    if (distance >= margin - kTolerance) return;
+    const int index = static_cast<int>(&piece - map.pieces().data());
+    const auto [entry, fresh] = worst.try_emplace(piece.obstacle, Worst{distance, index});
+    if (!fresh && distance < entry->second.distance) entry->second = {distance, index};
+  });
+  for (const auto& [obstacle, found] : worst) {
+    complain_if_near(stand.who, map.describe(found.piece), found.distance, margin, out);
+  }
+}
+
+void check_moving(const std::vector<Stand>& stands, const std::vector<Convex>& body, const geom::Pose2& pose,
+                  const std::string& name, double margin, Complaints& out) {
+  std::vector<double> worst(stands.size(), margin);
+  for (const Convex& part : body) {
+    const Convex shape = geom::placed(part, pose);
+    const geom::Box box = shape.box().inflated(margin);
+    for (std::size_t i = 0; i < stands.size(); ++i) {
+      if (box.overlaps(stands[i].box)) {
+        worst[i] = std::min(worst[i], geom::separation(stands[i].footprint, shape).distance);
+      }
+    }
+  }
+  for (std::size_t i = 0; i < stands.size(); ++i) complain_if_near(stands[i].who, name, worst[i], margin, out);
+}
+
+void check_pairs(const std::vector<Stand>& stands, double margin, Complaints& out) {
+  for (std::size_t i = 0; i < stands.size(); ++i) {
+    const geom::Box box = stands[i].box.inflated(margin);
+    for (std::size_t j = i + 1; j < stands.size(); ++j) {
+      if (!box.overlaps(stands[j].box)) continue;
+      const double distance = geom::separation(stands[i].footprint, stands[j].footprint).distance;
+      complain_if_near(stands[i].who, stands[j].who, distance, margin, out);
+    }
+  }
+}
+
+// Whether the car's poses can be judged at all.
+bool check_robot(const Scenario& scenario, std::size_t index, const std::vector<bool>& model_fine, Complaints& out) {
+  const Robot& robot = scenario.robots[index];
+  const std::string who = name_of(robot, index);
+  if (robot.model < 0 || static_cast<std::size_t>(robot.model) >= scenario.models.size()) {
+    out.push_back(who + " is of model number " + std::to_string(robot.model) + ", but there are " +
+                  std::to_string(scenario.models.size()));
+    return false;
+  }
+  bool fine = model_fine[static_cast<std::size_t>(robot.model)];
+  const vehicle::Limits& limits = scenario.model_of(robot).limits;
+  const double limit = robot.start_speed < 0.0 ? limits.reverse_speed : limits.speed;
+  if (fine && !(std::abs(robot.start_speed) <= limit)) {
+    out.push_back(who + " starts at " + number(robot.start_speed) + " m/s, faster than its limit of " + number(limit) +
+                  " m/s");
+  }
+  for (const auto& [pose, what] : {std::pair{&robot.start, " starts"}, std::pair{&robot.goal, " has its goal"}}) {
+    if (finite(*pose)) continue;
+    out.push_back(who + what + " at a pose that is not finite");
+    fine = false;
+  }
+  return fine;
+}
+
+}  // namespace
+
+std::vector<std::string> check(const Scenario& scenario, const StaticMap& map) {
+  Complaints out;
+  check_world(scenario, out);
+  std::vector<bool> model_fine;
+  for (const vehicle::Model& model : scenario.models) model_fine.push_back(check_model(model, out));
+  if (scenario.robots.empty()) out.push_back("the team is empty: expected at least one robot");
+
+  std::vector<Stand> starts, goals;
+  for (std::size_t i = 0; i < scenario.robots.size(); ++i) {
+    if (!check_robot(scenario, i, model_fine, out)) continue;
+    starts.push_back(stand_of(scenario, i, false));
+    goals.push_back(stand_of(scenario, i, true));
+  }
+  const auto usable = [](double given) { return given >= 0.0 && std::isfinite(given) ? given : 0.0; };
+  const double margin = usable(scenario.margins.obstacle);
+  for (const auto* stands : {&starts, &goals}) {
+    for (const Stand& stand : *stands) {
+      check_bounds(stand, map.bounds(), margin, out);
+      check_static(stand, map, margin, out);
+    }
+    check_pairs(*stands, usable(scenario.margins.robot), out);
+  }
+  for (std::size_t i = 0; i < scenario.obstacles.size(); ++i) {
+    const Obstacle& obstacle = scenario.obstacles[i];
+    const std::string name = name_of(obstacle, i);
+    if (!check_obstacle(obstacle, name, out) || obstacle.motion.empty()) continue;
+    const std::vector<Convex> body = body_of(obstacle);
+    check_moving(starts, body, pose_at_start(obstacle.motion), name + " (moving, at t = 0)", margin, out);
+    check_moving(goals, body, obstacle.motion.back().pose, name + " (moving, where it comes to rest)", margin, out);
+  }
+  return out;
+}
+
+}  // namespace seine::world
