@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+
+#include "seine/certify/certificate.hpp"
+#include "seine/planner/planner.hpp"
+#include "seine/world/scenario.hpp"
+
+// What `--json` prints: one JSON object and a line end.
+namespace seine::io {
+
+/// The outcome of planning (design section 10). Keys without a meaning are left out: costs without a
+/// certified plan, clearances that are beyond what the certificate looks at.
+std::string report_json(const world::Scenario& scenario, const planner::PlanResult& result);
+
+/// A verdict on a plan made elsewhere: certified, reason, robots, certify_s, clearances, violations.
+std::string report_json(const world::Scenario& scenario, const certify::Certificate& certificate);
+
+/// {"error": message}: wrong input, nothing done.
+std::string failure_json(const std::string& message);
+
+}  // namespace seine::io
