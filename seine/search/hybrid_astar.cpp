@@ -104,7 +104,7 @@ class Lattice {
 
  private:
   double ahead(const geom::Pose2& pose) { return (*p_.to_go)(pose * p_.reference); }
-  std::uint64_t bin(const geom::Pose2& pose) const;
+  std::uint64_t bin(const Node& n) const;
   Node& node(int index) { return nodes_[static_cast<std::size_t>(index)]; }
   const Node& node(int index) const { return nodes_[static_cast<std::size_t>(index)]; }
   bool start();
@@ -115,6 +115,7 @@ class Lattice {
   bool try_goal(int index);
   void expand(int index);
   void add(int parent, const Arc& move);
+  double cost_of(const Node& parent, const Arc& move) const;
   Route route() const;
   const Arc* arc_before(const Node& n) const { return n.parent < 0 ? nullptr : &n.arc; }
 
@@ -132,14 +133,16 @@ class Lattice {
   vehicle::ReedsSheppPath best_word_;
 };
 
-std::uint64_t Lattice::bin(const geom::Pose2& pose) const {
+std::uint64_t Lattice::bin(const Node& n) const {
+  const geom::Pose2& pose = n.pose;
   const auto index = [](double value) {
     return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(value)) + (1 << 20));
   };
   const auto heading = static_cast<std::int64_t>(std::floor(pose.heading / bin_angle_ + 0.5));
   const std::int64_t turn = (heading % s_.headings + s_.headings) % s_.headings;
   return (index((pose.x - p_.start.x) / s_.cell + 0.5) << 42) |
-         (index((pose.y - p_.start.y) / s_.cell + 0.5) << 20) | static_cast<std::uint64_t>(turn);
+         (index((pose.y - p_.start.y) / s_.cell + 0.5) << 20) |
+         static_cast<std::uint64_t>(2 * turn + (s_.gears_apart && n.arc.gear() < 0 ? 1 : 0));
 }
 
 void Lattice::push(int index) {
@@ -185,13 +188,14 @@ double Lattice::shoot(int index) {
   return found > 0 ? words[0].cost : 0.0;
 }
 
+double Lattice::cost_of(const Node& parent, const Arc& move) const {
+  return parent.cost + p_.costs.step(move, arc_before(parent)) + p_.costs.bumps_along(parent.pose, move);
+}
+
 void Lattice::add(int index, const Arc& move) {
   const Node& parent = node(index);
   const geom::Pose2 pose = vehicle::drive(parent.pose, move);
-  const double cost =
-      parent.cost + p_.costs.step(move, arc_before(parent)) + p_.costs.bumps_along(parent.pose, move);
-  const int known = bins_.at(bin(pose));
-  if (known >= 0 && node(known).cost <= cost) return;
+  const double cost = cost_of(parent, move);
   const double straight = geom::norm(pose * p_.reference - target_);
   const double left = std::max(straight, parent.left - std::abs(move.distance));
   const double estimate = cost + s_.heuristic_weight * left;
@@ -201,16 +205,23 @@ void Lattice::add(int index, const Arc& move) {
 }
 
 /// Whether a guessed node can be reached and is the cheapest in its bin; then its estimate becomes a good
-/// one.
+/// one. A move that is blocked is cut in half as often as the settings allow.
 bool Lattice::check(int index) {
   Node& here = node(index);
-  int& in_bin = bins_.at(bin(here.pose));
-  if (in_bin >= 0 && node(in_bin).cost <= here.cost) return false;
   const Node& parent = node(here.parent);
-  here.room = p_.checker->sweep(parent.pose, parent.room, here.arc, here.pose);
-  if (here.room < 0.0) return false;
+  for (;;) {
+    const int known = bins_.at(bin(here));
+    if (known >= 0 && node(known).cost <= here.cost) return false;
+    here.room = p_.checker->sweep(parent.pose, parent.room, here.arc, here.pose);
+    if (here.room >= 0.0) break;
+    if (std::abs(here.arc.distance) < 2.0 * s_.min_step) return false;
+    here.arc.distance *= 0.5;
+    here.pose = vehicle::drive(parent.pose, here.arc);
+    here.cost = cost_of(parent, here.arc);
+  }
   here.left = ahead(here.pose);
   if (here.left == kInfinity) return false;
+  int& in_bin = bins_.at(bin(here));
   if (in_bin >= 0) node(in_bin).stage = Stage::closed;
   in_bin = index;
   here.stage = Stage::checked;
@@ -250,7 +261,7 @@ bool Lattice::start() {
   open_.clear();
   bins_.clear();
   nodes_.push_back({p_.start, {}, 0.0, 0.0, 0.0, p_.checker->room(p_.start), -1, Stage::checked});
-  bins_.at(bin(p_.start)) = 0;
+  bins_.at(bin(node(0))) = 0;
   if (try_goal(0)) return false;
   p_.to_go->focus(p_.start * p_.reference);
   Node& root = node(0);

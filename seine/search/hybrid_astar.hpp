@@ -12,11 +12,13 @@ namespace seine::search {
 /// How finely Hybrid A* [Dolgov10] looks. Lengths in metres; docs/front-end-paths.md has the measurements
 /// behind the numbers.
 struct LatticeSettings {
-  double step = 0.8;   ///< m driven per move
-  double cell = 0.45;  ///< m, side of a position bin
-  int headings = 24;   ///< heading bins
-  int forward = 5;     ///< curvatures tried forwards (odd)
-  int backward = 3;    ///< and backwards
+  double step = 0.8;      ///< m driven per move
+  double min_step = 0.8;  ///< m: a move that is blocked is tried at half its length, and so on down to this
+  double cell = 0.45;     ///< m, side of a position bin
+  bool gears_apart = false;     ///< whether arriving forwards and arriving backwards are different bins
+  int headings = 24;      ///< heading bins
+  int forward = 5;        ///< curvatures tried forwards (odd)
+  int backward = 3;       ///< and backwards
   double heuristic_weight = 1.3;
   int max_expansions = 2000;
 };

@@ -95,10 +95,6 @@ double FootprintChecker::quick_room(const geom::Pose2& pose) const {
   return std::max(room, 0.0);
 }
 
-double FootprintChecker::map_room(std::span<const geom::Vec2> polygon) const {
-  return map_->nearest(polygon, clearance_ + look_).distance - clearance_;
-}
-
 double FootprintChecker::parked_room(const geom::Pose2& pose, std::span<const geom::Vec2> polygon,
                                      double cap) const {
   double room = cap;
@@ -114,10 +110,18 @@ double FootprintChecker::parked_room(const geom::Pose2& pose, std::span<const ge
 }
 
 double FootprintChecker::room(const geom::Pose2& pose) const {
-  double room = quick_room(pose);
-  if (room < 0.0) return room;
-  const bool sure = room > slack_;
-  if (sure && parked_.empty()) return room;
+  const double quick = quick_room(pose);
+  if (quick < 0.0) return quick;
+  const bool sure = quick > slack_;
+  return sure && parked_.empty() ? quick : near_room(pose, sure ? quick : -1.0);
+}
+
+double FootprintChecker::exact_room(const geom::Pose2& pose) const {
+  return near_room(pose, -1.0);
+}
+
+/// The room by the polygons themselves; that to the map is worked out when it is given as negative.
+double FootprintChecker::near_room(const geom::Pose2& pose, double map_room) const {
   std::array<geom::Vec2, kMaxCorners> storage;
   std::vector<geom::Vec2> heap;
   std::span<geom::Vec2> polygon(storage.data(), std::min(kMaxCorners, model_->footprint.size()));
@@ -126,9 +130,9 @@ double FootprintChecker::room(const geom::Pose2& pose) const {
     polygon = heap;
   }
   geom::place(model_->footprint, pose, polygon);
-  if (!sure) room = map_room(polygon);
-  if (room < 0.0 || parked_.empty()) return room;
-  return parked_room(pose, polygon, room);
+  if (map_room < 0.0) map_room = map_->nearest(polygon, clearance_ + look_).distance - clearance_;
+  if (map_room < 0.0 || parked_.empty()) return map_room;
+  return parked_room(pose, polygon, map_room);
 }
 
 double FootprintChecker::sweep(const geom::Pose2& from, double room_from, const vehicle::Arc& arc,

@@ -52,6 +52,8 @@ class FootprintChecker {
   /// A lower bound of the room at `pose`, exact where it is small; negative when the clearance is not kept
   /// (then only the sign counts).
   double room(const geom::Pose2& pose) const;
+  /// The same, exact up to a fifth of a car length.
+  double exact_room(const geom::Pose2& pose) const;
   /// The slack asked for at a place.
   double slack_at(geom::Vec2 position) const;
   bool clear(const geom::Pose2& pose) const { return room(pose) >= slack_at(pose.position()); }
@@ -84,7 +86,7 @@ class FootprintChecker {
   };
   double fastest_corner(double curvature) const;
   double quick_room(const geom::Pose2& pose) const;
-  double map_room(std::span<const geom::Vec2> polygon) const;
+  double near_room(const geom::Pose2& pose, double map_room) const;
   double parked_room(const geom::Pose2& pose, std::span<const geom::Vec2> polygon, double cap) const;
 
   const world::StaticMap* map_;

@@ -24,8 +24,9 @@ constexpr double kSteeringChange = 0.05;  // turning radii, from straight to the
 
 /// One rung of the ladder of searches: from coarse and quick to fine and patient.
 struct Rung {
-  double radius;      // of the smallest turning radius
-  double step, cell;  // turning radii
+  double radius;                // of the smallest turning radius
+  double step, min_step, cell;  // turning radii
+  bool gears_apart;
   int headings;
   int forward, backward;
   double slack;        // of the full slack
@@ -34,9 +35,9 @@ struct Rung {
   bool from_tighter_end;
 };
 constexpr Rung kLadder[] = {
-    {1.1, 0.8, 0.45, 24, 5, 3, 1.0, 2.0, 0.1, false},
-    {1.02, 0.3, 0.15, 48, 5, 5, 0.2, 1.0, 0.3, true},
-    {1.0, 0.15, 0.08, 72, 5, 5, 0.0, 0.5, 1.0, true},
+    {1.1, 0.8, 0.8, 0.45, false, 24, 5, 3, 1.0, 2.0, 0.05, false},
+    {1.02, 0.3, 0.3, 0.15, false, 48, 5, 5, 0.2, 1.0, 0.3, true},
+    {1.02, 0.2, 0.01, 0.02, true, 240, 3, 3, 0.0, 0.25, 1.0, true},
 };
 
 /// Costs to go that were worked out before, for whoever comes with the same goal; each is lent to one search
@@ -168,7 +169,9 @@ LatticeResult PathPlanner::Impl::climb(const Rung& rung, const FootprintChecker&
   problem.costs.bumps = options.bumps;
   LatticeSettings settings;
   settings.step = rung.step * radius;
+  settings.min_step = rung.min_step * radius;
   settings.cell = rung.cell * radius;
+  settings.gears_apart = rung.gears_apart;
   settings.headings = rung.headings;
   settings.forward = backwards ? rung.backward : rung.forward;
   settings.backward = backwards ? rung.forward : rung.backward;
@@ -182,7 +185,7 @@ LatticeResult PathPlanner::Impl::climb(const Rung& rung, const FootprintChecker&
 std::optional<Path> PathPlanner::Impl::plan(const geom::Pose2& start, const geom::Pose2& goal,
                                             const PathOptions& options) {
   FootprintChecker free = checker(start, goal, options);
-  const double room_start = free.room(start), room_goal = free.room(goal);
+  const double room_start = free.exact_room(start), room_goal = free.exact_room(goal);
   if (std::min(room_start, room_goal) < -kTouch) return std::nullopt;
 
   int left = options.max_expansions;
