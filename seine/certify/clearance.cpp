@@ -122,7 +122,7 @@ class RobotClearance {
       const Box& slab = mover_.slab_box[static_cast<std::size_t>(s)];
       near.clear();
       const double reach = to_obstacles_.wanted();
-      context_.map.for_each_near(slab.inflated(reach), [&](const world::StaticMap::Piece& piece) {
+      context_.map.for_each_near(slab.inflated(std::max(reach, 0.0)), [&](const world::StaticMap::Piece& piece) {
         if (box_gap(slab, piece.box) < reach) near.push_back(&piece);
       });
       const bool by_wall = depth_inside(slab) < reach;

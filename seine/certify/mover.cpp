@@ -109,8 +109,9 @@ Mover moving_part(const geom::Convex& part, std::span<const world::Waypoint> mot
 }
 
 double box_gap(const Box& a, const Box& b) {
-  const double dx = std::max({a.low.x - b.high.x, b.low.x - a.high.x, 0.0});
-  const double dy = std::max({a.low.y - b.high.y, b.low.y - a.high.y, 0.0});
+  const double dx = std::max(a.low.x - b.high.x, b.low.x - a.high.x);
+  const double dy = std::max(a.low.y - b.high.y, b.low.y - a.high.y);
+  if (dx <= 0.0 || dy <= 0.0) return std::max(dx, dy);
   return std::sqrt(dx * dx + dy * dy);
 }
 
