@@ -1,0 +1,83 @@
+#include "seine/io/svg_view.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "seine/io/number_text.hpp"
+
+namespace seine::io {
+namespace {
+
+void include_car(const vehicle::Model& model, const geom::Pose2& pose, geom::Box& box) {
+  for (const geom::Vec2 corner : model.footprint) box.include(pose * corner);
+}
+
+/// Where the cars are at any time, m.
+geom::Box used_part(const world::Scenario& scenario, const traj::TeamTrajectory* plan) {
+  constexpr int kSamples = 60;  // a car; the room around hides what lies between
+  geom::Box box;
+  for (std::size_t k = 0; k < scenario.robots.size(); ++k) {
+    const world::Robot& robot = scenario.robots[k];
+    const vehicle::Model& model = scenario.model_of(robot);
+    include_car(model, robot.start, box);
+    include_car(model, robot.goal, box);
+    if (plan == nullptr || k >= plan->robots.size() || plan->robots[k].segments.empty()) continue;
+    const double arrival = plan->robots[k].arrival();
+    for (int i = 0; i <= kSamples; ++i)
+      include_car(model, plan->robots[k].at(arrival * i / kSamples).pose, box);
+  }
+  return box;
+}
+
+}  // namespace
+
+SvgView choose_view(const world::Scenario& scenario, const traj::TeamTrajectory* plan,
+                    const SvgOptions& options, geom::Vec2 corner) {
+  SvgView view{scenario.bounds, 1.0, corner};
+  geom::Box part = used_part(scenario, plan);
+  if (!options.whole && !part.empty()) {
+    part = part.inflated(0.12 * std::max(part.size().x, part.size().y) + 1.0);
+    const geom::Box& all = scenario.bounds;
+    part = {{std::max(part.low.x, all.low.x), std::max(part.low.y, all.low.y)},
+            {std::min(part.high.x, all.high.x), std::min(part.high.y, all.high.y)}};
+    const bool small = !part.empty() && part.size().x * part.size().y < 0.5 * all.size().x * all.size().y;
+    if (small) view.world = part;
+  }
+  view.scale = options.size / std::max({view.world.size().x, view.world.size().y, 1e-6});
+  return view;
+}
+
+std::string px(double value) {
+  return rounded_text(value, 2);
+}
+
+std::string px(geom::Vec2 point) {
+  return px(point.x) + " " + px(point.y);
+}
+
+std::string xml_text(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '&') {
+      out += "&amp;";
+    } else if (c == '<') {
+      out += "&lt;";
+    } else if (c == '>') {
+      out += "&gt;";
+    } else if (c == '"') {
+      out += "&quot;";
+    } else if (static_cast<unsigned char>(c) >= 0x20) {
+      out += c;
+    }
+  }
+  return out;
+}
+
+double round_below(double value) {
+  if (!(value > 0.0) || !std::isfinite(value)) return 1.0;
+  const double decade = std::pow(10.0, std::floor(std::log10(value)));
+  const double digits = value / decade;
+  return decade * (digits >= 5.0 ? 5.0 : digits >= 2.0 ? 2.0 : 1.0);
+}
+
+}  // namespace seine::io
