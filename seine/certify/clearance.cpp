@@ -22,8 +22,8 @@ class RobotClearance {
         mover_(*scene.robots[static_cast<std::size_t>(robot)]),
         to_robots_(context, context.scenario.margins.robot),
         to_obstacles_(context, context.scenario.margins.obstacle) {
-    to_robots_.closest =
-        glimpsed + kClosestResolution;  // so that a pair that is that close is met again, with its time
+    // A little more than was glimpsed, so that the glimpsed pair is met again, with its time.
+    to_robots_.closest = glimpsed + kClosestResolution + 1e-6;
     to_obstacles_.closest = std::max(kObstacleSearch, context.scenario.margins.obstacle) + kClosestResolution;
   }
 

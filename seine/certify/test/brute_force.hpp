@@ -18,20 +18,34 @@ struct Extremes {
   double curvature = 0.0, steering_rate = 0.0;
 };
 
+/// The six magnitudes of one state, in the order of Extremes.
+inline std::array<double, 6> magnitudes(const traj::State& s, double wheelbase) {
+  const double z = wheelbase * s.curvature;
+  return {s.speed,
+          -s.speed,
+          std::abs(s.acceleration),
+          std::abs(s.lateral_acceleration),
+          std::abs(s.curvature),
+          std::abs(wheelbase * s.curvature_rate / (1.0 + z * z))};
+}
+
+/// On a grid of `rate` Hz, and a thousand times finer around each extreme (sharp bends are narrower than the
+/// grid).
 inline Extremes extremes_of(const traj::RobotTrajectory& way, double wheelbase, double rate) {
-  Extremes e;
+  std::array<double, 6> most{}, when{};
   const int count = static_cast<int>(way.arrival() * rate);
   for (int i = 0; i <= count; ++i) {
-    const traj::State s = way.at(i / rate);
-    const double z = wheelbase * s.curvature;
-    e.speed = std::max(e.speed, s.speed);
-    e.reverse_speed = std::max(e.reverse_speed, -s.speed);
-    e.acceleration = std::max(e.acceleration, std::abs(s.acceleration));
-    e.lateral_acceleration = std::max(e.lateral_acceleration, std::abs(s.lateral_acceleration));
-    e.curvature = std::max(e.curvature, std::abs(s.curvature));
-    e.steering_rate = std::max(e.steering_rate, std::abs(wheelbase * s.curvature_rate / (1.0 + z * z)));
+    const auto now = magnitudes(way.at(i / rate), wheelbase);
+    for (std::size_t q = 0; q < 6; ++q) {
+      if (now[q] > most[q]) most[q] = now[q], when[q] = i / rate;
+    }
   }
-  return e;
+  for (std::size_t q = 0; q < 6; ++q) {
+    for (int i = -1000; i <= 1000; ++i) {
+      most[q] = std::max(most[q], magnitudes(way.at(when[q] + i / (1000.0 * rate)), wheelbase)[q]);
+    }
+  }
+  return {most[0], most[1], most[2], most[3], most[4], most[5]};
 }
 
 /// Where a moving obstacle's frame is, straight from its definition.

@@ -12,7 +12,7 @@ namespace {
 #ifdef SEINE_SANITIZED
 constexpr int kLimitPlans = 12, kDistancePlans = 4;
 #else
-constexpr int kLimitPlans = 150, kDistancePlans = 80;
+constexpr int kLimitPlans = 150, kDistancePlans = 60;
 #endif
 constexpr double kRate = 10000.0;  // Hz
 
