@@ -10,17 +10,20 @@ namespace seine::geom {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// Two vertices closer than this along a face normal (m) both count as supporting it: parallel edges after rounding.
+// Two vertices closer than this along a face normal (m) both count as supporting it: parallel edges after
+// rounding.
 constexpr double kTie = 1e-11;
 
-std::size_t next_index(std::size_t i, std::size_t count) { return i + 1 == count ? 0 : i + 1; }
+std::size_t next_index(std::size_t i, std::size_t count) {
+  return i + 1 == count ? 0 : i + 1;
+}
 
-// What the faces of `a` see of `b`: the largest over the faces of the signed distance of b beyond the face's line, and which
-// faces b is wholly beyond.
+// What the faces of `a` see of `b`: the largest over the faces of the signed distance of b beyond the face's
+// line, and which faces b is wholly beyond.
 struct Faces {
   double order = -kInfinity;  // gap·|gap| of the widest: ordered like the gap, without a root for each face
   std::size_t widest = 0;
-  std::uint64_t facing = 0;   // bit i mod 64 for face i
+  std::uint64_t facing = 0;  // bit i mod 64 for face i
 
   double gap() const { return order < 0.0 ? -std::sqrt(-order) : std::sqrt(order); }
 };
@@ -60,9 +63,9 @@ Face widest_face(std::span<const Vec2> a, const Faces& seen) {
   return {seen.gap(), seen.widest, Vec2{along.y, -along.x} / norm(along)};
 }
 
-// Where the part of b that touches the face's supporting line lies over the edge of a: the middle of their overlap, as a point
-// on the edge. `inside` tells whether there is one; only then is the gap of the face the Euclidean distance. (In an overlap there
-// always is, but for rounding.)
+// Where the part of b that touches the face's supporting line lies over the edge of a: the middle of their
+// overlap, as a point on the edge. `inside` tells whether there is one; only then is the gap of the face the
+// Euclidean distance. (In an overlap there always is, but for rounding.)
 struct Foot {
   bool inside = false;
   Vec2 on_edge;
@@ -91,9 +94,10 @@ struct Pair {
   Vec2 on_b;
 };
 
-// The nearest pair of a point on an edge of `a` and a vertex of `b`, over the facing edges: when a and b are apart, the nearest pair
-// has such an edge in one of the two.
-void nearest_over_edges(std::span<const Vec2> a, std::span<const Vec2> b, std::uint64_t facing, bool swapped, Pair& best) {
+// The nearest pair of a point on an edge of `a` and a vertex of `b`, over the facing edges: when a and b are
+// apart, the nearest pair has such an edge in one of the two.
+void nearest_over_edges(std::span<const Vec2> a, std::span<const Vec2> b, std::uint64_t facing, bool swapped,
+                        Pair& best) {
   for (std::size_t i = 0; i < a.size(); ++i) {
     if ((facing >> (i & 63) & 1U) == 0) continue;
     const Vec2 tail = a[i];
@@ -134,10 +138,12 @@ double least_squared(std::span<const Vec2> a, const Faces& of_a, std::span<const
   return least;
 }
 double least_squared(std::span<const Vec2> a, const Faces& of_a, std::span<const Vec2> b) {
-  return b.size() == 4 ? least_squared(a, of_a, b.first<4>()) : least_squared<std::dynamic_extent>(a, of_a, b);
+  return b.size() == 4 ? least_squared(a, of_a, b.first<4>())
+                       : least_squared<std::dynamic_extent>(a, of_a, b);
 }
 
-// Cores without an inside: points and segments. A segment's own direction must also be tried as a separating axis.
+// Cores without an inside: points and segments. A segment's own direction must also be tried as a separating
+// axis.
 bool flat_and_apart(std::span<const Vec2> a, std::span<const Vec2> b) {
   if (a.size() > 2 || b.size() > 2) return false;
   if (a.size() == 1 || b.size() == 1) return true;  // a point has no depth in a segment
@@ -172,13 +178,15 @@ Convex placed(const Convex& body, const Pose2& pose) {
 }
 
 std::vector<Vec2> convex_hull(std::vector<Vec2> points) {
-  std::sort(points.begin(), points.end(), [](Vec2 a, Vec2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
+  std::sort(points.begin(), points.end(),
+            [](Vec2 a, Vec2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
   points.erase(std::unique(points.begin(), points.end()), points.end());
   if (points.size() < 3) return points;
   // Monotone chain [Andrew79]: the lower hull from left to right, then the upper one back.
   std::vector<Vec2> hull;
   const auto extend = [&hull](Vec2 p, std::size_t floor) {
-    while (hull.size() > floor && cross(hull.back() - hull[hull.size() - 2], p - hull.back()) <= 0.0) hull.pop_back();
+    while (hull.size() > floor && cross(hull.back() - hull[hull.size() - 2], p - hull.back()) <= 0.0)
+      hull.pop_back();
     hull.push_back(p);
   };
   for (const Vec2 p : points) extend(p, 1);
@@ -196,11 +204,13 @@ Separation separation(std::span<const Vec2> a, std::span<const Vec2> b) {
   const Face face = by_a ? widest_face(a, of_a) : widest_face(b, of_b);
   const Vec2 normal = by_a ? face.normal : -face.normal;
   const bool flat = a.size() < 3 && b.size() < 3;
-  if (flat && (face.gap >= -kTie || flat_and_apart(a, b))) return between(nearest_pair(a, of_a, b, of_b), normal);
+  if (flat && (face.gap >= -kTie || flat_and_apart(a, b)))
+    return between(nearest_pair(a, of_a, b, of_b), normal);
   const Foot foot = by_a ? foot_on(a, b, face) : foot_on(b, a, face);
   if (!foot.inside && face.gap > 0.0) return between(nearest_pair(a, of_a, b, of_b), normal);
   const Vec2 opposite = foot.on_edge + face.gap * face.normal;
-  return by_a ? Separation{face.gap, normal, foot.on_edge, opposite} : Separation{face.gap, normal, opposite, foot.on_edge};
+  return by_a ? Separation{face.gap, normal, foot.on_edge, opposite}
+              : Separation{face.gap, normal, opposite, foot.on_edge};
 }
 
 Separation separation(const Convex& a, const Convex& b) {
@@ -211,7 +221,9 @@ Separation separation(const Convex& a, const Convex& b) {
   return result;
 }
 
-double distance(std::span<const Vec2> a, std::span<const Vec2> b) { return distance_up_to(a, b, kInfinity); }
+double distance(std::span<const Vec2> a, std::span<const Vec2> b) {
+  return distance_up_to(a, b, kInfinity);
+}
 
 double distance_up_to(std::span<const Vec2> a, std::span<const Vec2> b, double enough) {
   const double enough_order = enough * std::abs(enough);

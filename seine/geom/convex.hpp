@@ -9,8 +9,8 @@
 
 namespace seine::geom {
 
-/// A convex shape: the points within `radius` of a convex core. The core's vertices are counter-clockwise without
-/// repetition; one vertex makes a disc, two a capsule, three and more a (rounded) polygon.
+/// A convex shape: the points within `radius` of a convex core. The core's vertices are counter-clockwise
+/// without repetition; one vertex makes a disc, two a capsule, three and more a (rounded) polygon.
 struct Convex {
   std::vector<Vec2> core;
   double radius = 0.0;
@@ -28,13 +28,15 @@ std::vector<Vec2> convex_hull(std::vector<Vec2> points);
 
 /// How two convex sets stand to each other.
 struct Separation {
-  double distance;   ///< exact Euclidean gap; when they overlap, minus the smallest translation that parts them
-  Vec2 normal;       ///< unit, from a towards b: moving b by it increases the distance
-  Vec2 point_a;      ///< a witness on a's boundary
-  Vec2 point_b;      ///< a witness on b's boundary
+  double
+      distance;  ///< exact Euclidean gap; when they overlap, minus the smallest translation that parts them
+  Vec2 normal;   ///< unit, from a towards b: moving b by it increases the distance
+  Vec2 point_a;  ///< a witness on a's boundary
+  Vec2 point_b;  ///< a witness on b's boundary
 };
 
-/// Exact signed distance of two convex polygons (cores only, radius 0), counter-clockwise, one vertex or more each.
+/// Exact signed distance of two convex polygons (cores only, radius 0), counter-clockwise, one vertex or more
+/// each.
 Separation separation(std::span<const Vec2> a, std::span<const Vec2> b);
 /// The same with both radii taken off.
 Separation separation(const Convex& a, const Convex& b);

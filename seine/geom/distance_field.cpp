@@ -12,10 +12,12 @@ namespace {
 
 // The sum of two squares of this many cells still fits the 16-bit integers of the transform.
 constexpr int kMaxCells = 127;
-// A node-to-piece distance costs about half of what the transform costs a node, so up to four a node are worth being exact.
+// A node-to-piece distance costs about half of what the transform costs a node, so up to four a node are
+// worth being exact.
 constexpr double kExactPerNode = 4.0;
 constexpr double kBandPerNode = 1.5;
-// Taken off per metre of the coordinates involved, so that rounding to single precision never raises a distance.
+// Taken off per metre of the coordinates involved, so that rounding to single precision never raises a
+// distance.
 constexpr double kRounding = 1e-6;
 
 struct Window {
@@ -43,7 +45,8 @@ double work(std::span<const Convex* const> pieces, std::span<const Box> boxes, d
   return nodes;
 }
 
-double choose_band(std::span<const Convex* const> pieces, std::span<const Box> boxes, const DistanceField& field) {
+double choose_band(std::span<const Convex* const> pieces, std::span<const Box> boxes,
+                   const DistanceField& field) {
   const double nodes = static_cast<double>(field.values.size());
   if (work(pieces, boxes, field.cap, field.cell) <= kExactPerNode * nodes) return field.cap;
   double band = field.cap;
@@ -51,8 +54,8 @@ double choose_band(std::span<const Convex* const> pieces, std::span<const Box> b
   return std::min(field.cap, std::max(band, field.cell));
 }
 
-// Writes the signed distance to one piece after another into the nodes that are nearer than `band` to it. Rows are done a face at a
-// time in single precision, relative to the piece, so that the loops vectorise.
+// Writes the signed distance to one piece after another into the nodes that are nearer than `band` to it.
+// Rows are done a face at a time in single precision, relative to the piece, so that the loops vectorise.
 class BandWriter {
  public:
   BandWriter(DistanceField& field, double band) : field_(field), band_(band) {
@@ -60,7 +63,8 @@ class BandWriter {
     widest_.resize(width);
     nearest_.resize(width);
     ramp_.resize(width);
-    for (std::size_t i = 0; i < width; ++i) ramp_[i] = static_cast<float>(static_cast<double>(i) * field.cell);
+    for (std::size_t i = 0; i < width; ++i)
+      ramp_[i] = static_cast<float>(static_cast<double>(i) * field.cell);
   }
 
   void write(const Convex& piece, const Box& box) {
@@ -114,7 +118,9 @@ class BandWriter {
     const float past_start = static_cast<float>(dot(face.along, from));
     const float past_step = static_cast<float>(face.along.x);
     const float length = static_cast<float>(face.length);
-    const float hidden = inside_possible_ ? 0.0f : -kFar;  // a face that looks away is not the nearest, unless it is all there is
+    const float hidden = inside_possible_
+                             ? 0.0f
+                             : -kFar;  // a face that looks away is not the nearest, unless it is all there is
     float* widest = widest_.data();
     float* nearest = nearest_.data();
     const float* ramp = ramp_.data();
@@ -140,8 +146,8 @@ class BandWriter {
   std::vector<float> widest_, nearest_, ramp_;
 };
 
-// Squared distance in cells, at most limit², of each node to the nearest one whose value is below `seed`; first along the columns,
-// then along the rows [Saito94]. Loops run along rows so that they vectorise.
+// Squared distance in cells, at most limit², of each node to the nearest one whose value is below `seed`;
+// first along the columns, then along the rows [Saito94]. Loops run along rows so that they vectorise.
 std::vector<std::int16_t> transform(const DistanceField& field, float seed, int limit) {
   const std::size_t width = static_cast<std::size_t>(field.width);
   const std::size_t height = static_cast<std::size_t>(field.height);
@@ -179,7 +185,8 @@ std::vector<std::int16_t> transform(const DistanceField& field, float seed, int 
 // What the band has not reached: every obstacle point is within half a diagonal of a seed node.
 void fill_far(double band, DistanceField& field) {
   const double half_diagonal = field.cell * std::sqrt(0.5);
-  const int limit = std::min(kMaxCells, static_cast<int>(std::ceil((field.cap + half_diagonal) / field.cell)));
+  const int limit =
+      std::min(kMaxCells, static_cast<int>(std::ceil((field.cap + half_diagonal) / field.cell)));
   const std::vector<std::int16_t> squared = transform(field, static_cast<float>(half_diagonal), limit);
   std::vector<float> distance(static_cast<std::size_t>(limit * limit) + 1);
   for (std::size_t i = 0; i < distance.size(); ++i) {
@@ -194,7 +201,8 @@ void fill_far(double band, DistanceField& field) {
 
 }  // namespace
 
-DistanceField distance_field(std::span<const Convex* const> pieces, const Box& extent, double cell, double cap) {
+DistanceField distance_field(std::span<const Convex* const> pieces, const Box& extent, double cell,
+                             double cap) {
   DistanceField field;
   field.origin = extent.low;
   field.cell = cell;
@@ -230,8 +238,8 @@ DistanceField::Place DistanceField::locate(Vec2 p) const {
   const int column = std::max(std::min(static_cast<int>(cu), width - 2), 0);
   const int row = std::max(std::min(static_cast<int>(cv), height - 2), 0);
   const bool inside = u == cu && v == cv;
-  return {static_cast<std::size_t>(row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(column), cu - column,
-          cv - row, inside ? 0.0 : cell * norm({u - cu, v - cv})};
+  return {static_cast<std::size_t>(row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(column),
+          cu - column, cv - row, inside ? 0.0 : cell * norm({u - cu, v - cv})};
 }
 
 double DistanceField::interpolate(const Place& at) const {
@@ -243,7 +251,9 @@ double DistanceField::interpolate(const Place& at) const {
   return below + at.t * (above - below);
 }
 
-double DistanceField::value(Vec2 p) const { return interpolate(locate(p)); }
+double DistanceField::value(Vec2 p) const {
+  return interpolate(locate(p));
+}
 
 double DistanceField::lower_bound(Vec2 p) const {
   const Place at = locate(p);

@@ -5,8 +5,9 @@
 namespace seine::geom {
 namespace {
 
-// Blocked cells with a free 8-neighbour inside the grid, 1 each; width × height. A free cell within one row and one column is
-// found by two passes over bytes, which the compiler vectorises: maps have millions of cells and few boundary cells.
+// Blocked cells with a free 8-neighbour inside the grid, 1 each; width × height. A free cell within one row
+// and one column is found by two passes over bytes, which the compiler vectorises: maps have millions of
+// cells and few boundary cells.
 std::vector<std::uint8_t> boundary_cells(const OccupancyGrid& grid) {
   const std::size_t width = static_cast<std::size_t>(grid.width);
   const std::size_t height = static_cast<std::size_t>(grid.height);
@@ -16,7 +17,8 @@ std::vector<std::uint8_t> boundary_cells(const OccupancyGrid& grid) {
     std::uint8_t* out = free_across.data() + (row + 1) * width;
     for (std::size_t i = 0; i < width; ++i) out[i] = cell[i] == 0;
     for (std::size_t i = 1; i < width; ++i) out[i] = static_cast<std::uint8_t>(out[i] | (cell[i - 1] == 0));
-    for (std::size_t i = 1; i < width; ++i) out[i - 1] = static_cast<std::uint8_t>(out[i - 1] | (cell[i] == 0));
+    for (std::size_t i = 1; i < width; ++i)
+      out[i - 1] = static_cast<std::uint8_t>(out[i - 1] | (cell[i] == 0));
   }
   std::vector<std::uint8_t> boundary(height * width);
   for (std::size_t row = 0; row < height; ++row) {
@@ -69,7 +71,8 @@ class Grower {
   std::size_t count(const std::vector<std::uint8_t>& cells, const CellRectangle& r) const {
     std::size_t sum = 0;
     for (std::size_t row = r.row; row < r.row + r.rows; ++row) {
-      for (std::size_t column = r.column; column < r.column + r.columns; ++column) sum += cells[row * width_ + column];
+      for (std::size_t column = r.column; column < r.column + r.columns; ++column)
+        sum += cells[row * width_ + column];
     }
     return sum;
   }
@@ -85,7 +88,8 @@ Box OccupancyGrid::box() const {
   const double w = width * resolution;
   const double h = height * resolution;
   Box result;
-  for (const Vec2 corner : {Vec2{0.0, 0.0}, Vec2{w, 0.0}, Vec2{w, h}, Vec2{0.0, h}}) result.include(origin * corner);
+  for (const Vec2 corner : {Vec2{0.0, 0.0}, Vec2{w, 0.0}, Vec2{w, h}, Vec2{0.0, h}})
+    result.include(origin * corner);
   return result;
 }
 
@@ -102,7 +106,8 @@ std::vector<Convex> boundary_rectangles(const OccupancyGrid& grid) {
     for (std::size_t column = 0; column < width; ++column) {
       if (!grower.open(column, row)) continue;
       const CellRectangle r = grower.take(column, row);
-      const Vec2 corner = grid.origin.position() + static_cast<double>(r.column) * across + static_cast<double>(r.row) * up;
+      const Vec2 corner =
+          grid.origin.position() + static_cast<double>(r.column) * across + static_cast<double>(r.row) * up;
       const Vec2 wide = static_cast<double>(r.columns) * across;
       const Vec2 tall = static_cast<double>(r.rows) * up;
       result.push_back({{corner, corner + wide, corner + wide + tall, corner + tall}, 0.0});

@@ -8,25 +8,27 @@
 
 namespace seine::geom {
 
-/// A bitmap in the world. Cell (column, row) covers [column, column+1] × [row, row+1] times `resolution` in the frame whose
-/// pose is `origin` (row 0 is at the bottom, as seen in that frame; the frame may be turned).
+/// A bitmap in the world. Cell (column, row) covers [column, column+1] × [row, row+1] times `resolution` in
+/// the frame whose pose is `origin` (row 0 is at the bottom, as seen in that frame; the frame may be turned).
 struct OccupancyGrid {
   int width = 0;
   int height = 0;
-  double resolution = 0.05;            ///< m per cell
-  Pose2 origin;                        ///< pose of the lower-left corner of cell (0, 0)
-  std::vector<std::uint8_t> occupied;  ///< width × height, row-major; 1 = obstacle (occupied or unknown), 0 = free
+  double resolution = 0.05;  ///< m per cell
+  Pose2 origin;              ///< pose of the lower-left corner of cell (0, 0)
+  std::vector<std::uint8_t>
+      occupied;  ///< width × height, row-major; 1 = obstacle (occupied or unknown), 0 = free
 
   bool blocked(int column, int row) const {
     return column < 0 || row < 0 || column >= width || row >= height ||
-           occupied[static_cast<std::size_t>(row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(column)] != 0;
+           occupied[static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
+                    static_cast<std::size_t>(column)] != 0;
   }
   Box box() const;
 };
 
-/// Rectangles in the world, turned like the grid, that together cover every blocked cell with a free 8-neighbour. Whoever
-/// moves continuously from a free place meets one of them before any other blocked cell. The outside of the grid is not
-/// covered: it is the business of the bounds.
+/// Rectangles in the world, turned like the grid, that together cover every blocked cell with a free
+/// 8-neighbour. Whoever moves continuously from a free place meets one of them before any other blocked cell.
+/// The outside of the grid is not covered: it is the business of the bounds.
 std::vector<Convex> boundary_rectangles(const OccupancyGrid& grid);
 
 }  // namespace seine::geom

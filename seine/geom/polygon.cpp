@@ -14,7 +14,9 @@ namespace {
 
 using Indices = std::vector<std::size_t>;
 
-double turn(Vec2 a, Vec2 b, Vec2 c) { return cross(b - a, c - b); }
+double turn(Vec2 a, Vec2 b, Vec2 c) {
+  return cross(b - a, c - b);
+}
 int side(Vec2 a, Vec2 b, Vec2 p) {
   const double z = cross(b - a, p - a);
   return (z > 0.0) - (z < 0.0);
@@ -118,11 +120,13 @@ std::vector<Indices> clip_ears(std::span<const Vec2> p, Indices ring) {
   return triangles;
 }
 
-// Joins `a` and `b` across the edge a[i] -> a[i+1] = b[j+1] -> b[j]; empty when the union is not convex there.
+// Joins `a` and `b` across the edge a[i] -> a[i+1] = b[j+1] -> b[j]; empty when the union is not convex
+// there.
 Indices merged(std::span<const Vec2> p, const Indices& a, std::size_t i, const Indices& b, std::size_t j) {
   Indices ring;
-  for (std::size_t k = 1; k <= a.size(); ++k) ring.push_back(a[(i + k) % a.size()]);      // a[i+1] … a[i]
-  for (std::size_t k = 2; k < b.size(); ++k) ring.push_back(b[(j + k) % b.size()]);       // b after a[i], before a[i+1]
+  for (std::size_t k = 1; k <= a.size(); ++k) ring.push_back(a[(i + k) % a.size()]);  // a[i+1] … a[i]
+  for (std::size_t k = 2; k < b.size(); ++k)
+    ring.push_back(b[(j + k) % b.size()]);  // b after a[i], before a[i+1]
   const std::size_t n = ring.size();
   const std::size_t joint = a.size() - 1;
   const bool convex = turn(p[ring[n - 1]], p[ring[0]], p[ring[1]]) >= 0.0 &&

@@ -24,7 +24,9 @@ std::string number(double value) {
   return text;
 }
 
-std::string metres(double value) { return number(value) + " m"; }
+std::string metres(double value) {
+  return number(value) + " m";
+}
 
 std::string name_of(const Robot& robot, std::size_t index) {
   return robot.name.empty() ? "robot " + std::to_string(index + 1) : robot.name;
@@ -72,12 +74,12 @@ bool check_model(const vehicle::Model& model, Complaints& out) {
   bool fine = check_footprint(model, out);
   fine &= positive(model.wheelbase, "the wheelbase");
   fine &= positive(limits.speed, "the speed limit");
-  fine &= require(limits.reverse_speed >= 0.0 && std::isfinite(limits.reverse_speed), "the reverse speed limit" + of,
-                  limits.reverse_speed, "zero or more", out);
+  fine &= require(limits.reverse_speed >= 0.0 && std::isfinite(limits.reverse_speed),
+                  "the reverse speed limit" + of, limits.reverse_speed, "zero or more", out);
   fine &= positive(limits.acceleration, "the acceleration limit");
   fine &= positive_or_none(limits.lateral_acceleration, "the lateral acceleration limit");
-  fine &= require(limits.steering > 0.0 && limits.steering < 0.5 * std::numbers::pi, "the steering limit" + of,
-                  limits.steering, "an angle between 0 and pi/2 rad", out);
+  fine &= require(limits.steering > 0.0 && limits.steering < 0.5 * std::numbers::pi,
+                  "the steering limit" + of, limits.steering, "an angle between 0 and pi/2 rad", out);
   fine &= positive_or_none(limits.steering_rate, "the steering rate limit");
   return fine;
 }
@@ -96,11 +98,12 @@ void check_world(const Scenario& scenario, Complaints& out) {
 
 bool check_obstacle(const Obstacle& obstacle, const std::string& name, Complaints& out) {
   if (const auto* circle = std::get_if<Circle>(&obstacle.shape)) {
-    if (!require(circle->radius > 0.0 && std::isfinite(circle->radius), "the radius of " + name, circle->radius,
-                 "a positive number", out)) {
+    if (!require(circle->radius > 0.0 && std::isfinite(circle->radius), "the radius of " + name,
+                 circle->radius, "a positive number", out)) {
       return false;
     }
-  } else if (const std::string why = geom::why_not_simple(std::get<std::vector<Vec2>>(obstacle.shape)); !why.empty()) {
+  } else if (const std::string why = geom::why_not_simple(std::get<std::vector<Vec2>>(obstacle.shape));
+             !why.empty()) {
     out.push_back(name + " is not a simple polygon: " + why);
     return false;
   }
@@ -146,25 +149,28 @@ struct Stand {
 Stand stand_of(const Scenario& scenario, std::size_t robot, bool goal) {
   const Robot& r = scenario.robots[robot];
   Stand stand{name_of(r, robot) + (goal ? " at its goal" : " at its start"),
-              geom::placed({scenario.model_of(r).footprint, 0.0}, goal ? r.goal : r.start), {}};
+              geom::placed({scenario.model_of(r).footprint, 0.0}, goal ? r.goal : r.start),
+              {}};
   stand.box = stand.footprint.box();
   return stand;
 }
 
 // One sentence on a distance that is too small.
-void complain_if_near(const std::string& who, const std::string& other, double distance, double margin, Complaints& out) {
+void complain_if_near(const std::string& who, const std::string& other, double distance, double margin,
+                      Complaints& out) {
   if (distance >= margin - kTolerance) return;
   if (distance < -kTolerance) {
     out.push_back(who + " overlaps " + other + " by " + metres(-distance));
   } else {
-    out.push_back(who + " is " + metres(std::max(distance, 0.0)) + " from " + other + ", nearer than the margin of " +
-                  metres(margin));
+    out.push_back(who + " is " + metres(std::max(distance, 0.0)) + " from " + other +
+                  ", nearer than the margin of " + metres(margin));
   }
 }
 
 void check_bounds(const Stand& stand, const geom::Box& bounds, double margin, Complaints& out) {
-  const double inside = std::min(std::min(stand.box.low.x - bounds.low.x, stand.box.low.y - bounds.low.y),
-                                 std::min(bounds.high.x - stand.box.high.x, bounds.high.y - stand.box.high.y));
+  const double inside =
+      std::min(std::min(stand.box.low.x - bounds.low.x, stand.box.low.y - bounds.low.y),
+               std::min(bounds.high.x - stand.box.high.x, bounds.high.y - stand.box.high.y));
   if (inside < -kTolerance) {
     out.push_back(stand.who + " sticks out of the bounds by " + metres(-inside));
   } else {
@@ -202,7 +208,8 @@ void check_moving(const std::vector<Stand>& stands, const std::vector<Convex>& b
       }
     }
   }
-  for (std::size_t i = 0; i < stands.size(); ++i) complain_if_near(stands[i].who, name, worst[i], margin, out);
+  for (std::size_t i = 0; i < stands.size(); ++i)
+    complain_if_near(stands[i].who, name, worst[i], margin, out);
 }
 
 void check_pairs(const std::vector<Stand>& stands, double margin, Complaints& out) {
@@ -217,7 +224,8 @@ void check_pairs(const std::vector<Stand>& stands, double margin, Complaints& ou
 }
 
 // Whether the car's poses can be judged at all.
-bool check_robot(const Scenario& scenario, std::size_t index, const std::vector<bool>& model_fine, Complaints& out) {
+bool check_robot(const Scenario& scenario, std::size_t index, const std::vector<bool>& model_fine,
+                 Complaints& out) {
   const Robot& robot = scenario.robots[index];
   const std::string who = name_of(robot, index);
   if (robot.model < 0 || static_cast<std::size_t>(robot.model) >= scenario.models.size()) {
@@ -229,10 +237,11 @@ bool check_robot(const Scenario& scenario, std::size_t index, const std::vector<
   const vehicle::Limits& limits = scenario.model_of(robot).limits;
   const double limit = robot.start_speed < 0.0 ? limits.reverse_speed : limits.speed;
   if (fine && !(std::abs(robot.start_speed) <= limit)) {
-    out.push_back(who + " starts at " + number(robot.start_speed) + " m/s, faster than its limit of " + number(limit) +
-                  " m/s");
+    out.push_back(who + " starts at " + number(robot.start_speed) + " m/s, faster than its limit of " +
+                  number(limit) + " m/s");
   }
-  for (const auto& [pose, what] : {std::pair{&robot.start, " starts"}, std::pair{&robot.goal, " has its goal"}}) {
+  for (const auto& [pose, what] :
+       {std::pair{&robot.start, " starts"}, std::pair{&robot.goal, " has its goal"}}) {
     if (finite(*pose)) continue;
     out.push_back(who + what + " at a pose that is not finite");
     fine = false;
@@ -270,7 +279,8 @@ std::vector<std::string> check(const Scenario& scenario, const StaticMap& map) {
     if (!check_obstacle(obstacle, name, out) || obstacle.motion.empty()) continue;
     const std::vector<Convex> body = body_of(obstacle);
     check_moving(starts, body, pose_at_start(obstacle.motion), name + " (moving, at t = 0)", margin, out);
-    check_moving(goals, body, obstacle.motion.back().pose, name + " (moving, where it comes to rest)", margin, out);
+    check_moving(goals, body, obstacle.motion.back().pose, name + " (moving, where it comes to rest)", margin,
+                 out);
   }
   return out;
 }

@@ -18,7 +18,8 @@ namespace {
 
 // Rounding of touching shapes must not make them collide.
 constexpr double kTouch = 1e-9;  // m
-// Buckets about as far apart as the pieces, but not smaller than small cars nor larger than large ones, and not too many.
+// Buckets about as far apart as the pieces, but not smaller than small cars nor larger than large ones, and
+// not too many.
 constexpr double kBucketMin = 0.5, kBucketMax = 2.0;  // m
 constexpr double kBucketCount = 262144.0;
 
@@ -145,7 +146,8 @@ void StaticMap::build_buckets() {
 
 // (The order of the arguments sends NaN to bucket 0.)
 int StaticMap::column_of(double x) const {
-  return static_cast<int>(std::min(std::max(0.0, (x - low_.x) * inverse_), static_cast<double>(columns_ - 1)));
+  return static_cast<int>(
+      std::min(std::max(0.0, (x - low_.x) * inverse_), static_cast<double>(columns_ - 1)));
 }
 
 int StaticMap::row_of(double y) const {
@@ -167,7 +169,8 @@ bool StaticMap::visit_buckets(const Box& box, Visit&& visit) const {
         const int item = bucket_items_[static_cast<std::size_t>(k)];
         const Box& other = boxes_[static_cast<std::size_t>(item)];
         if (!other.overlaps(box)) continue;
-        // A piece is met in several buckets: the one that holds the lower corner of the common box speaks for it.
+        // A piece is met in several buckets: the one that holds the lower corner of the common box speaks for
+        // it.
         if (std::max(column_of(other.low.x), range.column_low) != column) continue;
         if (std::max(row_of(other.low.y), range.row_low) != row) continue;
         if (!visit(item)) return false;
@@ -189,35 +192,61 @@ StaticMap::Found::Found(const StaticMap& map, const Box& box) {
   std::sort(indices_->begin(), indices_->end());
 }
 
-StaticMap::Found::~Found() { --scratch().depth; }
+StaticMap::Found::~Found() {
+  --scratch().depth;
+}
+
+void StaticMap::improve(std::span<const Vec2> polygon, const Box& box, double reach, Best& best) const {
+  struct Offer {
+    double gap;  // of the boxes: not more than the distance
+    int item;
+  };
+  thread_local std::vector<Offer> offers;
+  offers.clear();
+  visit_buckets(box.inflated(std::max(reach, 0.0)), [&](int item) {
+    const double gap = box_gap(box, boxes_[static_cast<std::size_t>(item)]);
+    if (gap <= std::max(best.distance, 0.0)) offers.push_back({gap, item});
+    return true;
+  });
+  // The most promising first, until no box is near enough.
+  while (!offers.empty()) {
+    const auto next =
+        std::min_element(offers.begin(), offers.end(), [](Offer a, Offer b) { return a.gap < b.gap; });
+    if (next->gap > std::max(best.distance, 0.0)) break;
+    const int item = next->item;
+    *next = offers.back();
+    offers.pop_back();
+    const geom::Convex& shape = pieces_[static_cast<std::size_t>(item)].shape;
+    const double d =
+        geom::distance_up_to(polygon, shape.core, best.distance + shape.radius + kTouch) - shape.radius;
+    const bool tie = d == best.distance && (best.piece < 0 || item < best.piece);
+    if (d < best.distance || tie) best = {d, item};
+  }
+}
 
 StaticMap::Nearest StaticMap::nearest(std::span<const Vec2> polygon, double cap) const {
   const geom::Separation wall = to_bounds(polygon, bounds_);
   const Box box = geom::bounding_box(polygon);
-  double best = std::min(cap, wall.distance);
-  int piece = -1;
+  Best best{std::min(cap, wall.distance), -1};
   // Look close by first: in a dense map the rest then need not be looked at.
-  for (double reach = std::min(best, bucket_);; reach = std::min(best, 4.0 * reach)) {
-    visit_buckets(box.inflated(std::max(reach, 0.0)), [&](int item) {
-      const std::size_t i = static_cast<std::size_t>(item);
-      if (box_gap(box, boxes_[i]) > std::max(best, 0.0)) return true;
-      const geom::Convex& shape = pieces_[i].shape;
-      const double d = geom::distance_up_to(polygon, shape.core, best + shape.radius + kTouch) - shape.radius;
-      if (d < best || (d == best && (piece < 0 || item < piece))) best = d, piece = item;
-      return true;
-    });
-    const bool everything = box.low.x - reach < low_.x && box.low.y - reach < low_.y &&
-                            box.high.x + reach > low_.x + columns_ * bucket_ &&
-                            box.high.y + reach > low_.y + rows_ * bucket_;
-    if (reach >= best || (everything && reach == std::numeric_limits<double>::infinity())) break;
-    if (everything) reach = std::numeric_limits<double>::infinity();
+  for (double reach = std::min(best.distance, bucket_);; reach = std::min(best.distance, 4.0 * reach)) {
+    improve(polygon, box, reach, best);
+    if (reach >= best.distance) break;
+    const Box seen = box.inflated(reach);
+    const bool everything = seen.low.x < low_.x && seen.low.y < low_.y &&
+                            seen.high.x > low_.x + columns_ * bucket_ &&
+                            seen.high.y > low_.y + rows_ * bucket_;
+    if (everything) {  // what is filed in the border buckets may lie further out
+      improve(polygon, box, best.distance, best);
+      break;
+    }
   }
-  if (piece >= 0) {
-    const geom::Convex& shape = pieces_[static_cast<std::size_t>(piece)].shape;
+  if (best.piece >= 0) {
+    const geom::Convex& shape = pieces_[static_cast<std::size_t>(best.piece)].shape;
     geom::Separation separation = geom::separation(polygon, std::span<const Vec2>(shape.core));
     separation.distance -= shape.radius;
     separation.point_b -= shape.radius * separation.normal;
-    return {best, piece, false, separation};
+    return {best.distance, best.piece, false, separation};
   }
   if (wall.distance <= cap) return {wall.distance, -1, true, wall};
   return {cap, -1, false, {}};

@@ -11,9 +11,9 @@
 
 namespace seine::world {
 
-/// Everything that stands still, as convex pieces in a bucket grid: polygons cut into convex parts, circles as rounded points,
-/// occupied map cells as rectangles. Immutable after construction; safe to query from many threads at once, and from within a
-/// query's own `visit`.
+/// Everything that stands still, as convex pieces in a bucket grid: polygons cut into convex parts, circles
+/// as rounded points, occupied map cells as rectangles. Immutable after construction; safe to query from many
+/// threads at once, and from within a query's own `visit`.
 class StaticMap {
  public:
   struct Piece {
@@ -28,20 +28,24 @@ class StaticMap {
   const geom::Box& bounds() const { return bounds_; }
   const std::vector<Piece>& pieces() const { return pieces_; }
 
-  /// Calls `visit(const Piece&)` for every piece whose box overlaps `box`: each exactly once, in ascending index order.
+  /// Calls `visit(const Piece&)` for every piece whose box overlaps `box`: each exactly once, in ascending
+  /// index order.
   template <class Visit>
   void for_each_near(const geom::Box& box, Visit&& visit) const;
 
   /// The piece nearest to a convex polygon, and how it stands to it.
   struct Nearest {
-    double distance;                ///< exact signed distance, m; `cap` when nothing is nearer
-    int piece = -1;                 ///< index into pieces(); −1: the bounds, or nothing within cap
-    bool bounds = false;            ///< the bounds are what is nearest
-    geom::Separation separation{};  ///< a = the polygon, b = the piece or the bounds; unset when nothing is within cap
+    double distance;      ///< exact signed distance, m; `cap` when nothing is nearer
+    int piece = -1;       ///< index into pieces(); −1: the bounds, or nothing within cap
+    bool bounds = false;  ///< the bounds are what is nearest
+    geom::Separation
+        separation{};  ///< a = the polygon, b = the piece or the bounds; unset when nothing is within cap
   };
-  /// Looks no further than `cap` metres; an infinite cap is allowed. Ties go to the lower index, and to pieces before bounds.
+  /// Looks no further than `cap` metres; an infinite cap is allowed. Ties go to the lower index, and to
+  /// pieces before bounds.
   Nearest nearest(std::span<const geom::Vec2> polygon, double cap) const;
-  /// Distance only: true when the polygon keeps `clearance` (m) to every piece and to the bounds, to within a nanometre.
+  /// Distance only: true when the polygon keeps `clearance` (m) to every piece and to the bounds, to within a
+  /// nanometre.
   bool clear(std::span<const geom::Vec2> polygon, double clearance) const;
   /// "obstacle 3", the user's name of it, or "the map at (x, y)".
   std::string describe(int piece) const;
@@ -51,7 +55,8 @@ class StaticMap {
   struct Range {
     int column_low, column_high, row_low, row_high;
   };
-  // The distinct indices of pieces whose boxes overlap a box, ascending, in a list borrowed from the thread for as long as it lives.
+  // The distinct indices of pieces whose boxes overlap a box, ascending, in a list borrowed from the thread
+  // for as long as it lives.
   class Found {
    public:
     Found(const StaticMap& map, const geom::Box& box);
@@ -70,17 +75,24 @@ class StaticMap {
   int column_of(double x) const;
   int row_of(double y) const;
   Range range_of(const geom::Box& box) const;
-  // Calls visit(index) -> bool for pieces whose boxes overlap `box`, each once, in bucket order; stops and returns false as soon
-  // as it does.
+  // Calls visit(index) -> bool for pieces whose boxes overlap `box`, each once, in bucket order; stops and
+  // returns false as soon as it does.
   template <class Visit>
   bool visit_buckets(const geom::Box& box, Visit&& visit) const;
+  struct Best {
+    double distance;
+    int piece;
+  };
+  // Replaces `best` by a piece that is nearer, of those within `reach` of the box (ties: the lower index).
+  void improve(std::span<const geom::Vec2> polygon, const geom::Box& box, double reach, Best& best) const;
   bool piece_clear(std::size_t piece, std::span<const geom::Vec2> polygon, double clearance) const;
 
   geom::Box bounds_;
   std::vector<Piece> pieces_;
   std::vector<std::string> names_;  // of obstacles
 
-  // Buckets: CSR over columns·rows cells of side bucket_ from low_ on; pieces beyond the grid are filed in its border cells.
+  // Buckets: CSR over columns·rows cells of side bucket_ from low_ on; pieces beyond the grid are filed in
+  // its border cells.
   geom::Vec2 low_;
   double bucket_ = 1.0;   // m
   double inverse_ = 1.0;  // 1/m
@@ -88,7 +100,8 @@ class StaticMap {
   std::vector<int> bucket_begin_;
   std::vector<int> bucket_items_;
 
-  // What `clear` reads, packed: boxes and, per face of a core, its tail and unit outward normal (a point has one with normal 0).
+  // What `clear` reads, packed: boxes and, per face of a core, its tail and unit outward normal (a point has
+  // one with normal 0).
   struct Face {
     geom::Vec2 tail, normal;
   };
@@ -103,7 +116,8 @@ void StaticMap::for_each_near(const geom::Box& box, Visit&& visit) const {
   for (const int index : found) visit(pieces_[static_cast<std::size_t>(index)]);
 }
 
-/// The distance field of all pieces over the bounds (which it does not contain: they are easier asked directly).
+/// The distance field of all pieces over the bounds (which it does not contain: they are easier asked
+/// directly).
 geom::DistanceField distance_field(const StaticMap& map, double cell, double cap);
 
 }  // namespace seine::world

@@ -30,7 +30,8 @@ double point_segment(Vec2 p, Vec2 a, Vec2 b) {
   return norm(p - a - t * d);
 }
 
-// Independent of the code under test: the Minkowski difference as the hull of all vertex differences, and the origin against it.
+// Independent of the code under test: the Minkowski difference as the hull of all vertex differences, and the
+// origin against it.
 double brute_force(const std::vector<Vec2>& a, const std::vector<Vec2>& b) {
   std::vector<Vec2> differences;
   for (const Vec2 p : a) {

@@ -27,7 +27,8 @@ OccupancyGrid random_grid(Rng& rng) {
   grid.width = 1 + rng.below(40);
   grid.height = 1 + rng.below(40);
   grid.resolution = rng.uniform(0.02, 0.2);
-  grid.origin = {rng.uniform(-5.0, 5.0), rng.uniform(-5.0, 5.0), rng.below(2) == 0 ? 0.0 : rng.uniform(-3.0, 3.0)};
+  grid.origin = {rng.uniform(-5.0, 5.0), rng.uniform(-5.0, 5.0),
+                 rng.below(2) == 0 ? 0.0 : rng.uniform(-3.0, 3.0)};
   grid.occupied.assign(static_cast<std::size_t>(grid.width * grid.height), rng.below(2) == 0 ? 1 : 0);
   for (int i = rng.below(12); i > 0; --i) {  // rooms and blocks
     const int column = rng.below(grid.width), row = rng.below(grid.height);
@@ -63,7 +64,11 @@ TEST(Grid, RectanglesCoverExactlyTheBoundaryCells) {
 }
 
 TEST(Grid, StraightWallsAreOneRectangleEach) {
-  OccupancyGrid grid{.width = 20, .height = 10, .resolution = 0.1, .origin = {}, .occupied = std::vector<std::uint8_t>(200, 0)};
+  OccupancyGrid grid{.width = 20,
+                     .height = 10,
+                     .resolution = 0.1,
+                     .origin = {},
+                     .occupied = std::vector<std::uint8_t>(200, 0)};
   for (int row = 0; row < 10; ++row) grid.occupied[static_cast<std::size_t>(row * 20 + 7)] = 1;
   for (int column = 0; column < 20; ++column) grid.occupied[static_cast<std::size_t>(column)] = 1;
   EXPECT_EQ(boundary_rectangles(grid).size(), 2U);

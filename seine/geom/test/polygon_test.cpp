@@ -51,7 +51,8 @@ void expect_exact_cover(const std::vector<Vec2>& polygon, Rng& rng) {
   const Box box = bounding_box(polygon);
   for (int i = 0; i < 200; ++i) {
     const Vec2 p{rng.uniform(box.low.x, box.high.x), rng.uniform(box.low.y, box.high.y)};
-    const bool covered = std::any_of(parts.begin(), parts.end(), [p](const auto& part) { return contains(part, p); });
+    const bool covered =
+        std::any_of(parts.begin(), parts.end(), [p](const auto& part) { return contains(part, p); });
     EXPECT_EQ(covered, contains(polygon, p)) << p.x << ", " << p.y;
   }
 }
@@ -76,11 +77,14 @@ TEST(Polygon, PartsAreFewEnough) {
 TEST(Polygon, SaysWhyItIsNotSimple) {
   EXPECT_EQ(why_not_simple(std::vector<Vec2>{{0, 0}, {1, 0}, {0, 1}}), "");
   EXPECT_NE(why_not_simple(std::vector<Vec2>{{0, 0}, {1, 0}}).find("at least 3"), std::string::npos);
-  EXPECT_NE(why_not_simple(std::vector<Vec2>{{0, 0}, {1, 0}, {1, 0}, {0, 1}}).find("2 and 3"), std::string::npos);
-  EXPECT_NE(why_not_simple(std::vector<Vec2>{{0, 0}, {2, 2}, {2, 0}, {0, 2}}).find("cross"), std::string::npos);
-  EXPECT_NE(why_not_simple(std::vector<Vec2>{{0, 0}, {1, 0}, {2, 0}}), "");                  // flat
-  EXPECT_NE(why_not_simple(std::vector<Vec2>{{0, 0}, {3, 0}, {3, 1}, {3, -1}}), "");         // spike
-  EXPECT_NE(why_not_simple(std::vector<Vec2>{{0, 0}, {4, 0}, {4, 2}, {2, 0}, {0, 2}}), "");  // touches an edge
+  EXPECT_NE(why_not_simple(std::vector<Vec2>{{0, 0}, {1, 0}, {1, 0}, {0, 1}}).find("2 and 3"),
+            std::string::npos);
+  EXPECT_NE(why_not_simple(std::vector<Vec2>{{0, 0}, {2, 2}, {2, 0}, {0, 2}}).find("cross"),
+            std::string::npos);
+  EXPECT_NE(why_not_simple(std::vector<Vec2>{{0, 0}, {1, 0}, {2, 0}}), "");           // flat
+  EXPECT_NE(why_not_simple(std::vector<Vec2>{{0, 0}, {3, 0}, {3, 1}, {3, -1}}), "");  // spike
+  EXPECT_NE(why_not_simple(std::vector<Vec2>{{0, 0}, {4, 0}, {4, 2}, {2, 0}, {0, 2}}),
+            "");  // touches an edge
   EXPECT_THROW(convex_parts(std::vector<Vec2>{{0, 0}, {2, 2}, {2, 0}, {0, 2}}), InputError);
 }
 

@@ -22,25 +22,31 @@ std::vector<Vec2> square(double x, double y, double side) {
 Scenario good() {
   Scenario s;
   s.bounds = {{0.0, 0.0}, {10.0, 10.0}};
-  s.models.push_back({.name = "default", .footprint = vehicle::rectangle_footprint(0.6, 0.4, 0.1), .limits = {}});
+  s.models.push_back(
+      {.name = "default", .footprint = vehicle::rectangle_footprint(0.6, 0.4, 0.1), .limits = {}});
   s.robots.push_back({.name = "car0", .start = {1.0, 1.0, 0.0}, .goal = {8.0, 8.0, 0.0}});
   s.robots.push_back({.name = "", .start = {1.0, 3.0, 0.0}, .goal = {8.0, 6.0, 0.0}});
   s.obstacles.push_back({.name = "block", .shape = square(4.0, 4.0, 1.0), .motion = {}});
   return s;
 }
 
-std::vector<std::string> complaints(const Scenario& scenario) { return check(scenario, StaticMap(scenario)); }
+std::vector<std::string> complaints(const Scenario& scenario) {
+  return check(scenario, StaticMap(scenario));
+}
 
 // Exactly one complaint, and it holds every one of `words`.
 void expect_one(const std::function<void(Scenario&)>& spoil, const std::vector<std::string>& words) {
   Scenario scenario = good();
   spoil(scenario);
   const std::vector<std::string> found = complaints(scenario);
-  ASSERT_EQ(found.size(), 1U) << (found.empty() ? "no complaint about " + words[0] : found[0] + " | " + found.back());
+  ASSERT_EQ(found.size(), 1U) << (found.empty() ? "no complaint about " + words[0]
+                                                : found[0] + " | " + found.back());
   for (const std::string& word : words) EXPECT_NE(found[0].find(word), std::string::npos) << found[0];
 }
 
-TEST(Check, AGoodScenarioHasNoComplaint) { EXPECT_TRUE(complaints(good()).empty()); }
+TEST(Check, AGoodScenarioHasNoComplaint) {
+  EXPECT_TRUE(complaints(good()).empty());
+}
 
 TEST(Check, NumbersThatMakeNoSense) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -54,8 +60,13 @@ TEST(Check, NumbersThatMakeNoSense) {
   expect_one([](Scenario& s) { s.models[0].limits.steering_rate = 0.0; }, {"steering rate"});
   expect_one([](Scenario& s) { s.margins.robot = -0.1; }, {"margin between robots", "-0.1"});
   expect_one([nan](Scenario& s) { s.margins.obstacle = nan; }, {"margin to obstacles", "nan"});
-  expect_one([](Scenario& s) { s.models[0].footprint = {{0, 0}, {2, 0}, {0.5, 0.5}, {0, 2}}; }, {"not convex"});
-  expect_one([](Scenario& s) { std::reverse(s.models[0].footprint.begin(), s.models[0].footprint.end()); }, {"clockwise"});
+  expect_one(
+      [](Scenario& s) {
+        s.models[0].footprint = {{0, 0}, {2, 0}, {0.5, 0.5}, {0, 2}};
+      },
+      {"not convex"});
+  expect_one([](Scenario& s) { std::reverse(s.models[0].footprint.begin(), s.models[0].footprint.end()); },
+             {"clockwise"});
   expect_one([](Scenario& s) { s.robots[0].start_speed = 2.6; }, {"car0", "2.6", "2.5"});
   expect_one([](Scenario& s) { s.robots[1].start_speed = -2.6; }, {"robot 2", "-2.6"});
   expect_one([](Scenario& s) { s.robots[0].model = 3; }, {"car0", "model number 3"});
@@ -65,25 +76,52 @@ TEST(Check, NumbersThatMakeNoSense) {
 }
 
 TEST(Check, PlacesThatAreTaken) {
-  expect_one([](Scenario& s) { s.robots[0].start = {3.0, 4.5, 0.0}; s.robots[0].start.x = 3.6; },
-             {"car0 at its start overlaps block by 0.1 m"});
-  expect_one([](Scenario& s) { s.robots[0].goal = {3.47, 4.5, 0.0}; },
-             {"car0 at its goal is 0.03 m from block", "margin of 0.05 m"});
-  expect_one([](Scenario& s) { s.robots[0].start = {0.05, 1.0, 0.0}; }, {"car0 at its start sticks out of the bounds by 0.05 m"});
+  expect_one(
+      [](Scenario& s) {
+        s.robots[0].start = {3.0, 4.5, 0.0};
+        s.robots[0].start.x = 3.6;
+      },
+      {"car0 at its start overlaps block by 0.1 m"});
+  expect_one(
+      [](Scenario& s) {
+        s.robots[0].goal = {3.47, 4.5, 0.0};
+      },
+      {"car0 at its goal is 0.03 m from block", "margin of 0.05 m"});
+  expect_one(
+      [](Scenario& s) {
+        s.robots[0].start = {0.05, 1.0, 0.0};
+      },
+      {"car0 at its start sticks out of the bounds by 0.05 m"});
   expect_one([](Scenario& s) { s.robots[0].start = {0.12, 1.0, 0.0}; }, {"0.02 m from the bounds"});
-  expect_one([](Scenario& s) { s.robots[1].start = {1.5, 1.0, 0.0}; }, {"car0 at its start overlaps robot 2 at its start by 0.1 m"});
-  expect_one([](Scenario& s) { s.robots[1].goal = {8.62, 8.0, 0.0}; }, {"car0 at its goal is 0.02 m from robot 2 at its goal"});
+  expect_one(
+      [](Scenario& s) {
+        s.robots[1].start = {1.5, 1.0, 0.0};
+      },
+      {"car0 at its start overlaps robot 2 at its start by 0.1 m"});
+  expect_one(
+      [](Scenario& s) {
+        s.robots[1].goal = {8.62, 8.0, 0.0};
+      },
+      {"car0 at its goal is 0.02 m from robot 2 at its goal"});
 }
 
 TEST(Check, AnObstacleOfManyPiecesIsOneComplaintAndTheMapHasAPlace) {
-  expect_one([](Scenario& s) {
-    s.obstacles[0].shape = std::vector<Vec2>{{4, 4}, {6, 4}, {6, 6}, {5, 4.5}, {4, 6}};
-    s.robots[0].start = {4.7, 4.3, 0.0};
-  }, {"overlaps block"});
-  expect_one([](Scenario& s) {
-    s.map = geom::OccupancyGrid{.width = 20, .height = 20, .resolution = 0.5, .origin = {}, .occupied = std::vector<std::uint8_t>(400, 0)};
-    s.map->occupied[2 * 20 + 2] = 1;
-  }, {"car0 at its start overlaps the map at (1.25, 1.25)"});
+  expect_one(
+      [](Scenario& s) {
+        s.obstacles[0].shape = std::vector<Vec2>{{4, 4}, {6, 4}, {6, 6}, {5, 4.5}, {4, 6}};
+        s.robots[0].start = {4.7, 4.3, 0.0};
+      },
+      {"overlaps block"});
+  expect_one(
+      [](Scenario& s) {
+        s.map = geom::OccupancyGrid{.width = 20,
+                                    .height = 20,
+                                    .resolution = 0.5,
+                                    .origin = {},
+                                    .occupied = std::vector<std::uint8_t>(400, 0)};
+        s.map->occupied[2 * 20 + 2] = 1;
+      },
+      {"car0 at its start overlaps the map at (1.25, 1.25)"});
 }
 
 TEST(Check, MovingObstaclesAtTheirBeginningAndEnd) {
@@ -104,9 +142,9 @@ TEST(Check, MovingObstaclesAtTheirBeginningAndEnd) {
 TEST(Check, WithoutAMarginTouchingIsAllowed) {
   Scenario s = good();
   s.margins = {0.0, 0.0};
-  s.robots[0].start = {0.1, 1.0, 0.0};           // against the bounds
-  s.robots[1].start = {0.7 + 5e-7, 1.0, 0.0};    // against the other car
-  s.robots[0].goal = {3.5 + 5e-7, 4.5, 0.0};     // into the block by less than the tolerance
+  s.robots[0].start = {0.1, 1.0, 0.0};         // against the bounds
+  s.robots[1].start = {0.7 + 5e-7, 1.0, 0.0};  // against the other car
+  s.robots[0].goal = {3.5 + 5e-7, 4.5, 0.0};   // into the block by less than the tolerance
   EXPECT_TRUE(complaints(s).empty());
   s.robots[0].goal.x += 2e-6;
   EXPECT_EQ(complaints(s).size(), 1U);

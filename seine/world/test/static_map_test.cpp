@@ -38,7 +38,10 @@ Scenario random_scenario(Rng& rng) {
     scenario.obstacles.push_back(obstacle);
   }
   if (rng.below(2) == 0) {
-    geom::OccupancyGrid grid{.width = 60, .height = 50, .resolution = 0.2, .origin = {1.0, -1.0, rng.uniform(-0.5, 0.5)},
+    geom::OccupancyGrid grid{.width = 60,
+                             .height = 50,
+                             .resolution = 0.2,
+                             .origin = {1.0, -1.0, rng.uniform(-0.5, 0.5)},
                              .occupied = std::vector<std::uint8_t>(3000, 0)};
     for (int i = 0; i < 300; ++i) grid.occupied[static_cast<std::size_t>(rng.below(3000))] = 1;
     scenario.map = grid;
@@ -47,7 +50,8 @@ Scenario random_scenario(Rng& rng) {
 }
 
 std::vector<Vec2> random_footprint(Rng& rng, const Box& bounds) {
-  std::vector<Vec2> footprint = vehicle::rectangle_footprint(rng.uniform(0.3, 3.0), rng.uniform(0.2, 2.0), 0.2);
+  std::vector<Vec2> footprint =
+      vehicle::rectangle_footprint(rng.uniform(0.3, 3.0), rng.uniform(0.2, 2.0), 0.2);
   const geom::Pose2 pose{rng.uniform(bounds.low.x - 0.5, bounds.high.x + 0.5),
                          rng.uniform(bounds.low.y - 0.5, bounds.high.y + 0.5), rng.uniform(-3.0, 3.0)};
   geom::place(std::vector<Vec2>(footprint), pose, footprint);
@@ -99,7 +103,8 @@ TEST(StaticMap, VisitsEachOverlappingPieceOnceInOrderAlsoNested) {
     const StaticMap map(random_scenario(rng));
     const auto list = [&map](const Box& box) {
       std::vector<std::ptrdiff_t> found;
-      map.for_each_near(box, [&](const StaticMap::Piece& piece) { found.push_back(&piece - map.pieces().data()); });
+      map.for_each_near(
+          box, [&](const StaticMap::Piece& piece) { found.push_back(&piece - map.pieces().data()); });
       return found;
     };
     const auto expected = [&map](const Box& box) {
@@ -158,7 +163,8 @@ TEST(StaticMap, NamesPiecesAndRefusesKnots) {
 TEST(StaticMap, TouchingCountsAsClearWithoutAMargin) {
   Scenario scenario;
   scenario.bounds = {{0.0, 0.0}, {10.0, 10.0}};
-  scenario.obstacles.push_back({.name = "", .shape = std::vector<Vec2>{{3, 3}, {4, 3}, {4, 4}, {3, 4}}, .motion = {}});
+  scenario.obstacles.push_back(
+      {.name = "", .shape = std::vector<Vec2>{{3, 3}, {4, 3}, {4, 4}, {3, 4}}, .motion = {}});
   const StaticMap map(scenario);
   EXPECT_TRUE(map.clear(std::vector<Vec2>{{0, 3}, {3, 3}, {3, 4}, {0, 4}}, 0.0));
   EXPECT_FALSE(map.clear(std::vector<Vec2>{{0, 3}, {3.001, 3}, {3.001, 4}, {0, 4}}, 0.0));
