@@ -49,7 +49,7 @@ FootprintChecker::FootprintChecker(const world::StaticMap& map, const PointDista
       model_(&model),
       cover_(model.footprint),
       clearance_(clearance),
-      resolution_(model.length() / 400.0),
+      resolution_(2e-4 * model.length()),
       look_(0.2 * model.length()) {
   const geom::Box box = geom::bounding_box(model.footprint);
   middle_ = box.center();

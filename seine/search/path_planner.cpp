@@ -37,7 +37,7 @@ struct Rung {
 constexpr Rung kLadder[] = {
     {1.1, 0.8, 0.8, 0.45, false, 24, 5, 3, 1.0, 2.0, 0.05, false},
     {1.02, 0.3, 0.3, 0.15, false, 48, 5, 5, 0.2, 1.0, 0.3, true},
-    {1.02, 0.2, 0.01, 0.02, true, 240, 3, 3, 0.0, 0.25, 1.0, true},
+    {1.0, 0.2, 0.002, 0.006, true, 500, 3, 3, 0.02, 0.05, 1.0, true},
 };
 
 /// Costs to go that were worked out before, for whoever comes with the same goal; each is lent to one search
