@@ -3,32 +3,12 @@
 #include "seine/io/message.hpp"
 #include "seine/io/number_text.hpp"
 #include "seine/io/scenario_file.hpp"
+#include "seine/io/yaml_text.hpp"
 
 namespace seine::io {
 namespace {
 
 using geom::Vec2;
-
-/// A YAML scalar that reads back as exactly this text.
-std::string quoted(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    out += c;
-  }
-  return out + "\"";
-}
-
-/// Plain where YAML cannot take it for anything else: letters first, then letters, digits, '-', '_'.
-std::string scalar(const std::string& text) {
-  const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
-  const auto inner = [&](char c) { return letter(c) || (c >= '0' && c <= '9') || c == '-' || c == '_'; };
-  bool plain = !text.empty() && letter(text.front());
-  for (const char c : text) plain = plain && inner(c);
-  for (const char* word : {"null", "Null", "NULL", "true", "false", "yes", "no", "on", "off"})
-    plain = plain && text != word;
-  return plain ? text : quoted(text);
-}
 
 std::string point_text(Vec2 p) {
   return joined("[", number_text(p.x), ", ", number_text(p.y), "]");
@@ -59,7 +39,7 @@ std::string footprint_text(const std::vector<Vec2>& footprint) {
 
 std::string model_text(const vehicle::Model& model) {
   const vehicle::Limits& limits = model.limits;
-  return joined("  ", scalar(model.name), ":\n    footprint: ", footprint_text(model.footprint),
+  return joined("  ", yaml_scalar(model.name), ":\n    footprint: ", footprint_text(model.footprint),
                 "\n    wheelbase: ", number_text(model.wheelbase),
                 "\n    limits: {speed: ", number_text(limits.speed),
                 ", reverse_speed: ", number_text(limits.reverse_speed),
@@ -86,7 +66,7 @@ std::string shape_text(const world::Obstacle& obstacle) {
 
 std::string obstacle_text(const world::Obstacle& obstacle, std::size_t number) {
   std::string out = "    - {";
-  if (obstacle.name != joined("obstacle ", number)) out += joined("name: ", scalar(obstacle.name), ", ");
+  if (obstacle.name != joined("obstacle ", number)) out += joined("name: ", yaml_scalar(obstacle.name), ", ");
   out += shape_text(obstacle);
   if (obstacle.height != std::numeric_limits<double>::infinity())
     out += joined(", height: ", number_text(obstacle.height));
@@ -103,8 +83,8 @@ std::string robot_text(const world::Scenario& scenario, const world::Robot& robo
   const std::string& model = scenario.model_of(robot).name;
   const std::string speed =
       robot.start_speed != 0.0 ? joined(", speed: ", number_text(robot.start_speed)) : "";
-  return joined("  - {name: ", scalar(robot.name),
-                (model != "default" ? joined(", model: ", scalar(model)) : ""), ", start: {",
+  return joined("  - {name: ", yaml_scalar(robot.name),
+                (model != "default" ? joined(", model: ", yaml_scalar(model)) : ""), ", start: {",
                 pose_text(robot.start), speed, "}, goal: {", pose_text(robot.goal), "}}\n");
 }
 
@@ -112,10 +92,10 @@ std::string robot_text(const world::Scenario& scenario, const world::Robot& robo
 
 std::string scenario_text(const world::Scenario& scenario, const std::string& map_file) {
   const geom::Box& bounds = scenario.bounds;
-  std::string out = joined("seine: 1\nname: ", scalar(scenario.name), "\nworld:\n  bounds: [",
+  std::string out = joined("seine: 1\nname: ", yaml_scalar(scenario.name), "\nworld:\n  bounds: [",
                            number_text(bounds.low.x), ", ", number_text(bounds.low.y), ", ",
                            number_text(bounds.high.x), ", ", number_text(bounds.high.y), "]\n");
-  if (!map_file.empty()) out += joined("  map: ", scalar(map_file), "\n");
+  if (!map_file.empty()) out += joined("  map: ", yaml_scalar(map_file), "\n");
   if (!scenario.obstacles.empty()) out += "  obstacles:\n";
   for (std::size_t i = 0; i < scenario.obstacles.size(); ++i)
     out += obstacle_text(scenario.obstacles[i], i + 1);
