@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "seine/base/error.hpp"
+#include "seine/io/message.hpp"
 #include "seine/io/number_text.hpp"
 
 namespace seine::app {
@@ -103,12 +104,12 @@ void RowFile::read(const std::string& path, const std::string& settings) {
   std::ifstream in(path);
   std::string first, names;
   if (!std::getline(in, first) || !std::getline(in, names) || names != header()) {
-    throw InputError(path, 1, "is no result file of this version: remove it or give another name with -o");
+    throw io::complaint(path, 1, "is no result file of this version: remove it or give another name with -o");
   }
   if (first != "# " + settings) {
-    throw InputError(path, 1,
-                     "was made with '" + first.substr(std::min<std::size_t>(2, first.size())) + "', not '" +
-                         settings + "': remove it or give another name with -o");
+    throw io::complaint(path, 1,
+                        "was made with '" + first.substr(std::min<std::size_t>(2, first.size())) +
+                            "', not '" + settings + "': remove it or give another name with -o");
   }
   for (std::string line; std::getline(in, line);) {
     rows_.push_back(parse_row(fields_of(names), line));

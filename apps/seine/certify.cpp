@@ -33,6 +33,7 @@ Example
 int run(const Arguments& arguments, bool json) {
   const world::Scenario scenario = io::load_scenario(arguments.scenario);
   const io::PlanFile plan = io::load_plan(arguments.plan);
+  io::expect_same_team(scenario, plan, arguments.plan);
   const world::StaticMap map(scenario);
   const certify::Certificate certificate = certify::certify(
       scenario, map, plan.plan,

@@ -46,7 +46,14 @@ int run(const Arguments& arguments, bool json) {
   };
   const planner::PlanResult result = planner::plan(scenario, options);
   line.clear();
-  if (result.certified && !arguments.output.empty()) io::save_plan(scenario, result, arguments.output);
+  const bool written = result.certified && !arguments.output.empty();
+  if (written) {
+    io::save_plan(scenario, result, arguments.output,
+                  {.method = arguments.method,
+                   .seed = arguments.seed,
+                   .threads = arguments.threads,
+                   .deadline_s = arguments.deadline});
+  }
   std::cout << (json ? io::report_json(scenario, result) : summary(scenario, result));
   if (!json && result.certified && !arguments.output.empty())
     std::cout << "  written to     " << arguments.output << "\n";

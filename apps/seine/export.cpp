@@ -1,0 +1,53 @@
+// seine export: the states of every car, for other programs.
+#include "seine/io/export.hpp"
+
+#include <memory>
+#include <string>
+
+#include "apps/seine/command.hpp"
+#include "seine/io/plan_file.hpp"
+#include "seine/io/scenario_file.hpp"
+
+namespace seine::app {
+namespace {
+
+struct Arguments {
+  std::string scenario;
+  std::string plan;
+  std::string output;
+  double rate = 20.0;
+};
+
+constexpr const char* kFooter =
+    R"(The name of the file decides what is written, evaluated from the trajectory itself at any rate:
+  *.csv   robot,t,x,y,heading,speed,acceleration,steering (speed signed: negative backwards)
+  *.tum   t x y z qx qy qz qw, one file a car
+  *.yaml  a CL-MAPF schedule
+Example
+  seine export team.yaml plan.json --rate 100 -o states.csv)";
+
+int run(const Arguments& arguments) {
+  expect_writable(arguments.output);
+  const world::Scenario scenario = io::load_scenario(arguments.scenario);
+  const io::PlanFile plan = io::load_plan(arguments.plan);
+  io::expect_same_team(scenario, plan, arguments.plan);
+  io::export_plan(scenario, plan.plan, arguments.rate, arguments.output);
+  return kDone;
+}
+
+}  // namespace
+
+void add_export(CLI::App& program, Invocation& invocation) {
+  CLI::App& command = *program.add_subcommand("export", "writes the states of every car along a plan");
+  command.footer(kFooter);
+  const auto arguments = std::make_shared<Arguments>();
+  add_scenario(command, arguments->scenario);
+  command.add_option("PLAN", arguments->plan, "plan.json")->required();
+  command.add_option("--rate", arguments->rate, "states a second, Hz")
+      ->check(kPositive)
+      ->capture_default_str();
+  command.add_option("-o,--output", arguments->output, "*.csv, *.tum or *.yaml")->required();
+  command.callback([&invocation, arguments] { invocation.run = [arguments] { return run(*arguments); }; });
+}
+
+}  // namespace seine::app
