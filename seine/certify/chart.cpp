@@ -15,7 +15,7 @@ using traj::Segment;
 
 // A cell is short enough when its body leaves the chord by less than this, in car lengths: finer cells make
 // box tests sharper and cost more to make.
-constexpr double kGrain = 0.01;
+constexpr double kGrain = 0.03;
 // … and when |p'| provably stays above this fraction of its middle value: the bounds divide by it.
 constexpr double kRegular = 0.5;
 constexpr double kShortestTangent = 1e-6;  // m, |p'| below it is no direction
@@ -137,13 +137,26 @@ class Charter {
       return fail(stretch.clock(a.w), Kind::undecided, "too many cells");
     if (mover().cells.size() % 64 == 0 && context_.out_of_time())
       return fail(stretch.clock(a.w), Kind::undecided, "out of time");
+    check_on_piece(stretch, a, b, bends);
     mover().add_cell(stretch.clock(a.w), stretch.clock(b.w), bends.vertex,
                      static_cast<int>(mover().stretches.size()) - 1, a.frame, b.frame);
     limits_.check(stretch, a, b, bends, forwards_);
   }
 
+  /// u̇ may be negative by a tolerance; that must not take the car back across a knot, where another
+  /// polynomial holds.
+  void check_on_piece(const Stretch& stretch, const Sample& a, const Sample& b, const Bends& bends) {
+    const double off = std::max({-a.u, -b.u, a.u - 1.0, b.u - 1.0}) * bends.middle_length;
+    if (off > tolerance::kJunction)
+      note(stretch.clock(a.w), Kind::gear, "the progress goes back across a knot of the curve");
+  }
+
   void fail(double time, Kind kind, const char* what) {
     failed_ = true;
+    note(time, kind, what);
+  }
+
+  void note(double time, Kind kind, const char* what) {
     chart_.findings.push_back(
         {{kind, time, robot_, -1, 0.0, 0.0,
           format("%s: %s at t = %.4f s", context_.robot_name(robot_).c_str(), what, time)},

@@ -122,9 +122,10 @@ class RobotClearance {
       const Box& slab = mover_.slab_box[static_cast<std::size_t>(s)];
       near.clear();
       const double reach = to_obstacles_.wanted();
-      context_.map.for_each_near(slab.inflated(std::max(reach, 0.0)), [&](const world::StaticMap::Piece& piece) {
-        if (box_gap(slab, piece.box) < reach) near.push_back(&piece);
-      });
+      context_.map.for_each_near(slab.inflated(std::max(reach, 0.0)),
+                                 [&](const world::StaticMap::Piece& piece) {
+                                   if (box_gap(slab, piece.box) < reach) near.push_back(&piece);
+                                 });
       const bool by_wall = depth_inside(slab) < reach;
       const double end = s + 1 == scene_.slabs ? scene_.horizon : scene_.slab_begin(s + 1);
       for (; next < mover_.cells.size() && (mover_.cells[next].t0 < end || s + 1 == scene_.slabs); ++next) {

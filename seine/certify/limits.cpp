@@ -10,6 +10,7 @@ namespace {
 
 // A cell halved this often is 2^-40 of itself: what is still open then hangs on rounding.
 constexpr int kDeepest = 40;
+constexpr int kMostSteps = 1 << 18;  // of one car; sane plans need some hundred
 // A value met beyond the limit is followed up until nothing in its cell is this much worse, relative to the
 // limit.
 constexpr double kWorstResolution = 1e-3;
@@ -106,7 +107,8 @@ LimitProof::Mask LimitProof::unproved(Mask mask, const Stretch& stretch, const S
 }
 
 void LimitProof::refine(Mask mask, const Stretch& stretch, const Sample& a, const Sample& b, int depth) {
-  if (depth >= kDeepest || context_.expired.load(std::memory_order_relaxed)) {
+  if (++steps_ % 512 == 0) context_.out_of_time();
+  if (depth >= kDeepest || steps_ > kMostSteps || context_.expired.load(std::memory_order_relaxed)) {
     for (std::size_t r = 0; r < kRules; ++r) {
       if ((mask & (1u << r)) == 0 || rules_[r].worst > 0.0 || rules_[r].undecided) continue;
       rules_[r].undecided = true;

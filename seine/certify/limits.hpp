@@ -47,6 +47,7 @@ class LimitProof {
   double reach_;
   std::array<Rule, kRules> rules_;
   double cell_begin_ = 0.0, cell_end_ = 0.0;
+  int steps_ = 0;
 };
 
 }  // namespace seine::certify

@@ -68,7 +68,8 @@ std::vector<geom::Convex> parts_of(const world::Obstacle& obstacle);
 Mover moving_part(const geom::Convex& part, std::span<const world::Waypoint> motion, double horizon,
                   double grain);
 
-/// A lower bound of the signed distance of what two boxes contain: their distance, or minus their smaller overlap.
+/// A lower bound of the signed distance of what two boxes contain: their distance, or minus their smaller
+/// overlap.
 double box_gap(const geom::Box& a, const geom::Box& b);
 
 }  // namespace seine::certify
