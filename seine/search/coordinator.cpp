@@ -13,28 +13,20 @@ std::size_t idx(int i) {
   return static_cast<std::size_t>(i);
 }
 
-// Per tick, the unit where the car is by this profile.
-std::vector<int> units_by_tick(const SpeedLattice& lattice, std::span<const ProfileKnot> profile) {
-  const double tick = lattice.grid().half_step();
-  std::vector<int> units;
-  std::size_t knot = 0;
-  int unit = 0;
-  for (int q = 0; q * tick <= profile.back().t; ++q) {
-    const double t = q * tick;
-    while (knot + 2 < profile.size() && profile[knot + 1].t <= t) ++knot;
-    const ProfileKnot &a = profile[knot], &b = profile[std::min(knot + 1, profile.size() - 1)];
-    const double dt = t - a.t, rate = b.t > a.t ? (b.v - a.v) / (b.t - a.t) : 0.0;
-    const double s = a.s + dt * (a.v + 0.5 * dt * rate);
-    while (unit < lattice.units() && lattice.s_at(unit + 1) <= s) ++unit;
-    units.push_back(unit);
+// The first tick at which the unhindered drive hits a mark, or −1.
+int first_hit(const VelocityPlan& plan, std::span<const Mark> marks) {
+  const int last = static_cast<int>(plan.tested.size()) - 1;
+  int first = -1;
+  for (const Mark& mark : marks) {
+    const int until = std::min(mark.end, last + 1);
+    for (int q = mark.begin; q < until && (first < 0 || q < first); ++q)
+      if (mark.first <= plan.tested[idx(q)] && plan.tested[idx(q)] <= mark.last) first = q;
+    // After its arrival the car stands at its goal.
+    const int later = std::max(mark.begin, last + 1);
+    if (mark.end > later && mark.last >= plan.tested[idx(last)] && (first < 0 || later < first))
+      first = later;
   }
-  return units;
-}
-
-const SpeedLattice::Group& group_of(const SpeedLattice& lattice, int unit) {
-  const auto group = std::lower_bound(lattice.groups().begin(), lattice.groups().end(), unit,
-                                      [](const SpeedLattice::Group& g, int u) { return g.last < u; });
-  return *group;
+  return first;
 }
 
 }  // namespace
@@ -70,7 +62,8 @@ bool Coordinator::add_way(int robot, Path path) {
                                                     scenario_.robots[idx(robot)].start_speed),
                                        0.0,
                                        {},
-                                       {}});
+                                       {},
+                                       0});
   if (!way->lattice.drivable()) return false;
   VelocityWorkspace workspace;
   workspace.occupied.reset(way->lattice, 1);
@@ -79,7 +72,8 @@ bool Coordinator::add_way(int robot, Path path) {
   if (!plan.found) return false;
   way->alone = plan.arrival;
   way->reach = std::move(plan.reach);
-  way->unhindered = units_by_tick(way->lattice, plan.profile);
+  way->unhindered = std::move(plan);
+  way->serial = ++serial_;
   car.ways.push_back(std::move(way));
   return true;
 }
@@ -98,6 +92,7 @@ void Coordinator::fix(int robot, const TimedPath& motion, TeamState& state) {
   placement->profile = motion.profile;
   placement->arrival = motion.arrival();
   placement->bodies = bodies_of(motion.path, motion.profile, *car.kind);
+  placement->serial = ++serial_;
   state[idx(robot)] = std::move(placement);
 }
 
@@ -122,41 +117,74 @@ double Coordinator::clearance(int a, int b) const {
   return room;
 }
 
-VelocityPlan Coordinator::plan_on(int robot, const Way& way, const TeamState& state,
-                                  VelocityWorkspace& workspace) const {
+// What `other` (−1 − p: moving obstacle p) takes of the way.
+std::span<const Mark> Coordinator::taken(int robot, const Way& way, int other, const TeamState& state,
+                                         CoordinatorWorkspace& workspace) const {
   const std::size_t clock = car(robot).kind->clock;
-  int ticks = 1;
-  for (const auto& other : state)
-    if (other) ticks = std::max(ticks, other->bodies[clock].rest_tick() + 2);
-  for (const MovingBody& body : obstacles_[clock]) ticks = std::max(ticks, body.rest_tick() + 2);
-  Occupied& occupied = workspace.occupied;
-  occupied.reset(way.lattice, ticks);
-  for (int other = 0; other < robots(); ++other)
-    if (other != robot && state[idx(other)])
-      occupied.add(way.lattice, state[idx(other)]->bodies[clock], clearance(robot, other), way.reach);
-  for (const MovingBody& body : obstacles_[clock])
-    occupied.add(way.lattice, body, scenario_.margins.obstacle, way.reach);
-  occupied.finish();
-  // When all others rest the car needs no longer than alone, plus what it takes to come to a halt first.
-  const int horizon = ticks + static_cast<int>(way.unhindered.size()) + 4 * way.lattice.grid().levels;
-  return plan_velocity(way.lattice, workspace, {.ticks = horizon, .want_reach = false});
+  const bool obstacle = other < 0;
+  const auto part = static_cast<std::uint32_t>(-1 - other);
+  const MovingBody& body = obstacle ? obstacles_[clock][part] : state[idx(other)]->bodies[clock];
+  const double margin = obstacle ? scenario_.margins.obstacle : clearance(robot, other);
+  if (!body.box().inflated(margin).overlaps(way.lattice.box())) return {};
+  // Placements count up from 1, obstacles down from the other end.
+  const std::uint32_t whose = obstacle ? ~part : state[idx(other)]->serial;
+  const std::uint64_t key = std::uint64_t{way.serial} << 32 | whose;
+  const auto [entry, fresh] = workspace.marks.try_emplace(key);
+  if (fresh) entry->second = marks_of(way.lattice, body, margin, way.reach);
+  return entry->second;
 }
 
-std::shared_ptr<const Placement> Coordinator::place_on(int robot, int way, const TeamState& state,
-                                                       VelocityWorkspace& workspace) const {
-  const Way& on = *ways(robot)[idx(way)];
-  VelocityPlan plan = plan_on(robot, on, state, workspace);
+VelocityPlan Coordinator::plan_on(int robot, const Way& way, const TeamState& state,
+                                  CoordinatorWorkspace& workspace, double latest) const {
+  constexpr std::size_t kMostMarks = 50000;
+  if (workspace.marks.size() > kMostMarks) workspace.marks.clear();
+  const std::size_t clock = car(robot).kind->clock;
+  const int parts = static_cast<int>(obstacles_[clock].size());
+  workspace.taken.clear();
+  int ticks = 1;
+  bool hindered = false;
+  for (int other = -parts; other < robots(); ++other) {
+    if (other == robot || (other >= 0 && !state[idx(other)])) continue;
+    const std::span<const Mark> marks = taken(robot, way, other, state, workspace);
+    if (marks.empty()) continue;
+    workspace.taken.push_back(marks);
+    hindered = hindered || first_hit(way.unhindered, marks) >= 0;
+    for (const Mark& mark : marks)
+      ticks = std::max(ticks, mark.end == MovingBody::kForever ? mark.begin + 1 : mark.end + 1);
+  }
+  if (!hindered) return way.unhindered;
+  Occupied& occupied = workspace.velocity.occupied;
+  occupied.reset(way.lattice, ticks);
+  for (const std::span<const Mark> marks : workspace.taken) occupied.add(marks);
+  occupied.finish();
+  // When all others rest the car needs no longer than alone, plus what it takes to come to a halt first.
+  int horizon = ticks + static_cast<int>(way.unhindered.tested.size()) + 4 * way.lattice.grid().levels;
+  const double tick = way.lattice.grid().half_step();
+  if (latest < horizon * tick) horizon = static_cast<int>(latest / tick);
+  return plan_velocity(way.lattice, workspace.velocity, {.ticks = horizon, .want_reach = false});
+}
+
+std::shared_ptr<const Placement> Coordinator::placement(int robot, int way, VelocityPlan plan) const {
   if (!plan.found) return nullptr;
   auto placement = std::make_shared<Placement>();
   placement->way = way;
   placement->arrival = plan.arrival;
   placement->profile = std::move(plan.profile);
-  placement->bodies = bodies_of(on.lattice.path(), placement->profile, *car(robot).kind);
+  const Path& path = ways(robot)[idx(way)]->lattice.path();
+  placement->bodies = bodies_of(path, placement->profile, *car(robot).kind);
+  placement->serial = ++serial_;
   return placement;
 }
 
+std::shared_ptr<const Placement> Coordinator::place_on(int robot, int way, const TeamState& state,
+                                                       CoordinatorWorkspace& workspace, double latest) const {
+  const Way& on = *ways(robot)[idx(way)];
+  if (on.alone > latest) return nullptr;
+  return placement(robot, way, plan_on(robot, on, state, workspace, latest));
+}
+
 std::shared_ptr<const Placement> Coordinator::place(int robot, const TeamState& state,
-                                                    VelocityWorkspace& workspace) const {
+                                                    CoordinatorWorkspace& workspace, double latest) const {
   std::vector<int> order(ways(robot).size());
   for (std::size_t w = 0; w < order.size(); ++w) order[w] = static_cast<int>(w);
   std::stable_sort(order.begin(), order.end(),
@@ -165,46 +193,28 @@ std::shared_ptr<const Placement> Coordinator::place(int robot, const TeamState& 
   int best_way = -1;
   for (const int way : order) {
     const Way& on = *ways(robot)[idx(way)];
-    if (best.found && on.alone >= best.arrival) break;
-    VelocityPlan plan = plan_on(robot, on, state, workspace);
+    if (on.alone > latest || (best.found && on.alone >= best.arrival)) break;
+    VelocityPlan plan = plan_on(robot, on, state, workspace, latest);
     if (!plan.found || (best.found && plan.arrival >= best.arrival)) continue;
+    latest = plan.arrival;
     best = std::move(plan);
     best_way = way;
   }
-  if (!best.found) return nullptr;
-  auto placement = std::make_shared<Placement>();
-  placement->way = best_way;
-  placement->arrival = best.arrival;
-  placement->profile = std::move(best.profile);
-  placement->bodies =
-      bodies_of(ways(robot)[idx(best_way)]->lattice.path(), placement->profile, *car(robot).kind);
-  return placement;
+  return placement(robot, best_way, std::move(best));
 }
 
-std::vector<Coordinator::Conflict> Coordinator::conflicts(int robot, int way, const TeamState& state) const {
+std::vector<Coordinator::Conflict> Coordinator::conflicts(int robot, int way, const TeamState& state,
+                                                          CoordinatorWorkspace& workspace) const {
   const Way& on = *ways(robot)[idx(way)];
-  const std::size_t clock = car(robot).kind->clock;
+  const int parts = static_cast<int>(obstacles_[car(robot).kind->clock].size());
   std::vector<Conflict> found;
-  const auto look = [&](int other, const MovingBody& body, double clear) {
-    if (!body.box().inflated(clear).overlaps(on.lattice.box())) return;
-    std::size_t e = 0;
-    // Past its arrival the car stands at its goal: one more look at the end of time.
-    const int last = static_cast<int>(on.unhindered.size());
-    for (int q = 0; q <= std::max(last, body.rest_tick()); ++q) {
-      while (e + 1 < body.events().size() && body.events()[e].end <= q) ++e;
-      const int unit = q < last ? on.unhindered[idx(q)] : on.lattice.units();
-      const SpeedLattice::Group& group = group_of(on.lattice, unit);
-      if (!group.box.inflated(clear).overlaps(body.events()[e].box)) continue;
-      const auto index = static_cast<std::size_t>(&group - on.lattice.groups().data());
-      if (apart(on.lattice.polygon(index), body.polygon(static_cast<int>(e)), clear)) continue;
-      found.push_back({other, q, unit});
-      return;
-    }
-  };
-  for (int other = 0; other < robots(); ++other)
-    if (other != robot && state[idx(other)])
-      look(other, state[idx(other)]->bodies[clock], clearance(robot, other));
-  for (const MovingBody& body : obstacles_[clock]) look(-1, body, scenario_.margins.obstacle);
+  for (int other = -parts; other < robots(); ++other) {
+    if (other == robot || (other >= 0 && !state[idx(other)])) continue;
+    const int tick = first_hit(on.unhindered, taken(robot, on, other, state, workspace));
+    if (tick < 0) continue;
+    const auto at = std::min(idx(tick), on.unhindered.tested.size() - 1);
+    found.push_back({std::max(other, -1), tick, on.unhindered.tested[at]});
+  }
   std::stable_sort(found.begin(), found.end(),
                    [](const Conflict& a, const Conflict& b) { return a.tick < b.tick; });
   return found;

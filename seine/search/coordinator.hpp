@@ -1,11 +1,13 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "seine/base/deadline.hpp"
@@ -20,9 +22,10 @@ namespace seine::search {
 /// One path a robot may take, ready for velocity planning.
 struct Way {
   SpeedLattice lattice;
-  double alone = 0.0;           ///< s, arrival if nobody else were there
-  std::vector<int> reach;       ///< per tick, furthest unit that can be reached
-  std::vector<int> unhindered;  ///< per tick, the unit where the car is when nobody is in its way
+  double alone = 0.0;        ///< s, arrival if nobody else were there
+  std::vector<int> reach;    ///< per tick, furthest unit that can be reached
+  VelocityPlan unhindered;   ///< when nobody is in its way
+  std::uint32_t serial = 0;  ///< distinct for all ways and placements
 };
 
 /// A robot's motion in the team: which way, when. Shared between team states, never changed.
@@ -31,10 +34,18 @@ struct Placement {
   std::vector<ProfileKnot> profile;
   double arrival = 0.0;            ///< s
   std::vector<MovingBody> bodies;  ///< one for each clock of the team
+  std::uint32_t serial = 0;
 };
 
 /// Who is where: null for robots that have no motion yet.
 using TeamState = std::vector<std::shared_ptr<const Placement>>;
+
+/// Memory of the coordinator's questions: what is taken on a way by a placement is looked up again and again.
+struct CoordinatorWorkspace {
+  VelocityWorkspace velocity;
+  std::unordered_map<std::uint64_t, std::vector<Mark>> marks;  ///< by (way, placement)
+  std::vector<std::span<const Mark>> taken;
+};
 
 /// The robots of a scenario, their ways, and the one question everything is made of: when can this robot go,
 /// given what the others do? Const calls are safe from many threads at once, each with its own workspace.
@@ -47,6 +58,7 @@ class Coordinator {
   int robots() const { return static_cast<int>(cars_.size()); }
   /// Adds a path for the robot; false when it cannot be driven alone.
   bool add_way(int robot, Path path);
+  void drop_last_way(int robot) { cars_[static_cast<std::size_t>(robot)].ways.pop_back(); }
   const std::vector<std::unique_ptr<Way>>& ways(int robot) const {
     return cars_[static_cast<std::size_t>(robot)].ways;
   }
@@ -56,12 +68,14 @@ class Coordinator {
   void fix(int robot, const TimedPath& motion, TeamState& state);
   bool fixed(int robot) const { return cars_[static_cast<std::size_t>(robot)].fixed.has_value(); }
 
-  /// The earliest arrival of the robot among the others of `state`, over all its ways; null when none works.
-  std::shared_ptr<const Placement> place(int robot, const TeamState& state,
-                                         VelocityWorkspace& workspace) const;
+  /// The earliest arrival of the robot among the others of `state`, over all its ways; null when none works,
+  /// or none arrives before `latest` (s).
+  std::shared_ptr<const Placement> place(int robot, const TeamState& state, CoordinatorWorkspace& workspace,
+                                         double latest = std::numeric_limits<double>::infinity()) const;
   /// The same with one way only.
   std::shared_ptr<const Placement> place_on(int robot, int way, const TeamState& state,
-                                            VelocityWorkspace& workspace) const;
+                                            CoordinatorWorkspace& workspace,
+                                            double latest = std::numeric_limits<double>::infinity()) const;
 
   /// Robots that are in the way of the unhindered drive along `way`, in the order of the first conflict, and
   /// where that is.
@@ -70,7 +84,8 @@ class Coordinator {
     int tick;
     int unit;
   };
-  std::vector<Conflict> conflicts(int robot, int way, const TeamState& state) const;
+  std::vector<Conflict> conflicts(int robot, int way, const TeamState& state,
+                                  CoordinatorWorkspace& workspace) const;
 
   /// Whether somewhere on its first way the robot touches another one that stands at its start, or at its
   /// goal.
@@ -98,7 +113,11 @@ class Coordinator {
   bool touches(int robot, int other, bool goal) const;
   std::vector<MovingBody> bodies_of(const Path& path, std::span<const ProfileKnot> profile,
                                     const Kind& kind) const;
-  VelocityPlan plan_on(int robot, const Way& way, const TeamState& state, VelocityWorkspace& workspace) const;
+  std::span<const Mark> taken(int robot, const Way& way, int other, const TeamState& state,
+                              CoordinatorWorkspace& workspace) const;
+  VelocityPlan plan_on(int robot, const Way& way, const TeamState& state, CoordinatorWorkspace& workspace,
+                       double latest) const;
+  std::shared_ptr<const Placement> placement(int robot, int way, VelocityPlan plan) const;
 
   const world::Scenario& scenario_;
   double extra_clearance_;
@@ -106,6 +125,7 @@ class Coordinator {
   std::vector<double> clocks_;  // s, the distinct ticks
   std::vector<Car> cars_;
   std::vector<std::vector<MovingBody>> obstacles_;  // by clock
+  mutable std::atomic<std::uint32_t> serial_{0};
 };
 
 }  // namespace seine::search

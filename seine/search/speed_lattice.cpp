@@ -57,7 +57,7 @@ SpeedGrid speed_grid(const vehicle::Model& model, const LatticeOptions& options)
 
 SpeedLattice::SpeedLattice(Path path, const SpeedGrid& grid, const SweptFootprint& footprint,
                            double start_speed)
-    : path_(std::move(path)), grid_(grid), corners_(footprint.corners()) {
+    : path_(std::move(path)), grid_(grid), corners_(footprint.corners()), boxes_(footprint.is_box()) {
   cut_stretches(start_speed);
   if (!drivable_) return;
   words_ = units_ / kWordBits + 1;
@@ -230,8 +230,8 @@ void SpeedLattice::add_group(const SweptFootprint& footprint, int first, int las
   }
   polygons_.resize(polygons_.size() + corners_);
   const std::span<geom::Vec2> out(&polygons_[polygons_.size() - corners_], corners_);
-  footprint.cover(pose, slack, out);
-  groups_.push_back({first, last, geom::bounding_box(out)});
+  const OrientedBox turned = footprint.cover(pose, slack, out);
+  groups_.push_back({first, last, geom::bounding_box(out), turned});
 }
 
 double SpeedLattice::speed_at(int unit, int level) const {

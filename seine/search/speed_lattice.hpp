@@ -51,6 +51,7 @@ class SpeedLattice {
   struct Group {
     int first, last;  ///< units, inclusive
     geom::Box box;    ///< of its polygon
+    OrientedBox turned;
   };
   struct Chunk {
     geom::Box box;
@@ -81,6 +82,7 @@ class SpeedLattice {
     return {&polygons_[group * corners_], corners_};
   }
   const geom::Box& box() const { return box_; }
+  bool boxes() const { return boxes_; }  ///< the polygons are the turned boxes
 
  private:
   struct Stretch {
@@ -113,6 +115,7 @@ class SpeedLattice {
   std::vector<geom::Vec2> polygons_;
   std::size_t corners_ = 0;
   geom::Box box_;
+  bool boxes_ = false;
 };
 
 }  // namespace seine::search

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "seine/geom/convex.hpp"
@@ -69,6 +70,8 @@ SweptFootprint::SweptFootprint(std::span<const Vec2> footprint) {
     const Vec2 direction = geom::unit(0.5 * (angles[i] + next));
     corners_.push_back({footprint[support(footprint, direction)], direction.x > 0.0, direction.y > 0.0});
   }
+  box_ = geom::bounding_box(footprint);
+  is_box_ = corners_.size() == 4 && footprint.size() == 4;
   for (const Vec2 p : footprint) {
     reach_ = std::max(reach_, norm(p));
     reach_x_ = std::max(reach_x_, std::abs(p.x));
@@ -76,23 +79,48 @@ SweptFootprint::SweptFootprint(std::span<const Vec2> footprint) {
   }
 }
 
-void SweptFootprint::cover(const geom::Pose2& pose, const Slack& slack, std::span<Vec2> out) const {
+OrientedBox SweptFootprint::cover(const geom::Pose2& pose, const Slack& slack, std::span<Vec2> out) const {
   const double furthest = std::max(slack.ahead, slack.behind);
   const double turn = slack.curvature * furthest;
   const double second_order = 0.5 * turn * (turn * reach_ + furthest);
   const double front = slack.ahead * (1.0 + slack.curvature * reach_y_) + second_order;
   const double rear = slack.behind * (1.0 + slack.curvature * reach_y_) + second_order;
-  place(pose, front, rear, turn * reach_x_ + second_order, out);
+  return place(pose, front, rear, turn * reach_x_ + second_order, out);
 }
 
-void SweptFootprint::place(const geom::Pose2& pose, double front, double rear, double side,
-                           std::span<Vec2> out) const {
+OrientedBox SweptFootprint::place(const geom::Pose2& pose, double front, double rear, double side,
+                                  std::span<Vec2> out) const {
   const Vec2 d = pose.direction();
   for (std::size_t i = 0; i < corners_.size(); ++i) {
     const Corner& c = corners_[i];
     const Vec2 p{c.point.x + (c.front ? front : -rear), c.point.y + (c.left ? side : -side)};
     out[i] = {pose.x + d.x * p.x - d.y * p.y, pose.y + d.y * p.x + d.x * p.y};
   }
+  const Vec2 low{box_.low.x - rear, box_.low.y - side}, high{box_.high.x + front, box_.high.y + side};
+  const Vec2 middle = 0.5 * (low + high);
+  return {{pose.x + d.x * middle.x - d.y * middle.y, pose.y + d.y * middle.x + d.x * middle.y},
+          d,
+          0.5 * (high.x - low.x),
+          0.5 * (high.y - low.y)};
+}
+
+double squared_distance(const OrientedBox& a, const OrientedBox& b) {
+  double least = std::numeric_limits<double>::infinity();
+  const auto look = [&least](const OrientedBox& box, const OrientedBox& other) {
+    const Vec2 d = box.center - other.center, side = geom::left_normal(box.axis);
+    // The box's centre and half sides in the other's frame.
+    const Vec2 c{dot(d, other.axis), cross(other.axis, d)};
+    const Vec2 u{box.half_length * dot(box.axis, other.axis), box.half_length * cross(other.axis, box.axis)};
+    const Vec2 v{box.half_width * dot(side, other.axis), box.half_width * cross(other.axis, side)};
+    for (const Vec2 corner : {c + u + v, c + u - v, c - u + v, c - u - v}) {
+      const double x = std::max(std::abs(corner.x) - other.half_length, 0.0);
+      const double y = std::max(std::abs(corner.y) - other.half_width, 0.0);
+      least = std::min(least, x * x + y * y);
+    }
+  };
+  look(a, b);
+  look(b, a);
+  return least;
 }
 
 bool apart(std::span<const Vec2> a, std::span<const Vec2> b, double clearance) {

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 
 #include "seine/base/workers.hpp"
 #include "seine/search/coordinator.hpp"
 #include "seine/search/path_planner.hpp"
+#include "seine/search/side_step.hpp"
 #include "seine/search/team_search.hpp"
 
 namespace seine::search {
@@ -24,7 +26,10 @@ class Guess {
         coordinator_(scenario, options.lattice, options.extra_robot_clearance),
         state_(scenario.robots.size()) {
     Stopwatch watch;
-    for (const vehicle::Model& model : scenario.models) planners_.emplace_back(map, model);
+    for (const vehicle::Model& model : scenario.models) {
+      planners_.emplace_back(map, model);
+      side_steps_.emplace_back(map, model, scenario.margins.obstacle);
+    }
     guess_.seconds.field = watch.seconds();
   }
 
@@ -39,6 +44,7 @@ class Guess {
   const world::Scenario& scenario_;
   const GuessOptions& options_;
   std::vector<PathPlanner> planners_;  // one for each model
+  std::deque<SideStep> side_steps_;    // likewise
   Coordinator coordinator_;
   TeamState state_;
   TeamGuess guess_;
@@ -99,9 +105,13 @@ TeamGuess Guess::run() {
   const auto find = [this](int robot, std::span<const Bump> bumps,
                            std::span<const std::vector<geom::Vec2>> parked,
                            int expansions) { return find_path(robot, bumps, parked, expansions); };
-  TeamSearch search(coordinator_, find, options_.team, options_.seed);
+  const auto beside = [this](int robot, const Path& path, double s, double offset) {
+    return side_steps_[idx(scenario_.robots[idx(robot)].model)].around(path, s, offset);
+  };
+  TeamSearch search(coordinator_, {find, beside}, options_.team, options_.seed);
   const bool solved = search.solve(state_, options_.deadline);
   if (solved) search.improve(state_, options_.deadline);
+  guess_.effort = search.effort();
   guess_.seconds.coordinate = coordination.seconds();
   answer(solved);
   return std::move(guess_);

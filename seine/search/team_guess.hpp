@@ -36,6 +36,7 @@ struct TeamGuess {
   struct {
     double field = 0, paths = 0, coordinate = 0;
   } seconds;
+  TeamSearch::Effort effort;  ///< of the coordination
 };
 
 /// The coordinated guess for the whole team: who drives where, when, and who goes first (docs/front-end.md).

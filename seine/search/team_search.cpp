@@ -1,7 +1,7 @@
 #include "seine/search/team_search.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 
 namespace seine::search {
 namespace {
@@ -19,10 +19,10 @@ double sum_of_arrivals(const TeamState& state) {
   return sum;
 }
 
-TeamSearch::TeamSearch(Coordinator& coordinator, FindPath find_path, const TeamSearchOptions& options,
+TeamSearch::TeamSearch(Coordinator& coordinator, Sources sources, const TeamSearchOptions& options,
                        std::uint64_t seed)
     : coordinator_(coordinator),
-      find_path_(std::move(find_path)),
+      sources_(std::move(sources)),
       options_(options),
       rng_(seed),
       precedence_(coordinator) {}
@@ -76,7 +76,8 @@ int TeamSearch::pass(const std::vector<int>& order, TeamState& state, const Dead
     if (state[idx(robot)]) continue;
     if (deadline.expired() || coordinator_.ways(robot).empty()) return robot;
     Placed placed = place(robot, state);
-    if (!placed || late(robot, placed->arrival))
+    if (!placed || late(robot, placed->arrival)) placed = side_step(robot, state, placed);
+    if (!placed || (options_.late_tries > 0 && late(robot, placed->arrival)))
       placed = detour(robot, state, placed, placed ? options_.late_tries : options_.detour_tries);
     if (!placed) placed = around_the_parked(robot, state);
     state[idx(robot)] = placed;
@@ -86,24 +87,52 @@ int TeamSearch::pass(const std::vector<int>& order, TeamState& state, const Dead
 }
 
 TeamSearch::Placed TeamSearch::place(int robot, const TeamState& state) {
+  ++effort_.placements;
   return coordinator_.place(robot, state, workspace_);
+}
+
+// Passes the first robot it meets on the other side, or further out.
+TeamSearch::Placed TeamSearch::side_step(int robot, const TeamState& state, Placed best) {
+  if (!sources_.side_step || static_cast<int>(coordinator_.ways(robot).size()) >= options_.most_ways)
+    return best;
+  const int way = best ? best->way : fastest_way(robot);
+  const auto conflicts = coordinator_.conflicts(robot, way, state, workspace_);
+  if (conflicts.empty()) return best;
+  const world::Scenario& scenario = coordinator_.scenario();
+  const double width = scenario.model_of(scenario.robots[idx(robot)]).width() + scenario.margins.robot;
+  const Path path = coordinator_.ways(robot)[idx(way)]->lattice.path();
+  const double s = coordinator_.ways(robot)[idx(way)]->lattice.s_at(conflicts.front().unit);
+  for (const double offset : {-1.15 * width, 1.15 * width, -2.3 * width, 2.3 * width}) {
+    std::optional<Path> beside = sources_.side_step(robot, path, s, offset);
+    if (!beside || !coordinator_.add_way(robot, std::move(*beside))) continue;
+    ++effort_.side_steps;
+    const double latest = best ? best->arrival - 1e-3 : std::numeric_limits<double>::infinity();
+    const int added = static_cast<int>(coordinator_.ways(robot).size()) - 1;
+    Placed placed = coordinator_.place_on(robot, added, state, workspace_, latest);
+    if (!placed)
+      coordinator_.drop_last_way(robot);
+    else
+      best = placed;
+  }
+  return best;
 }
 
 // Other paths, pushed away from where the unhindered drive meets the others; the pushes add up.
 TeamSearch::Placed TeamSearch::detour(int robot, const TeamState& state, Placed best, int tries) {
-  if (!find_path_) return best;
+  if (!sources_.search) return best;
   const world::Scenario& scenario = coordinator_.scenario();
   const double radius = options_.bump_lengths * scenario.model_of(scenario.robots[idx(robot)]).length();
   std::vector<Bump> bumps;
   int way = best ? best->way : fastest_way(robot);
   for (int i = 0; i < tries; ++i) {
-    const auto conflicts = coordinator_.conflicts(robot, way, state);
+    const auto conflicts = coordinator_.conflicts(robot, way, state, workspace_);
     if (conflicts.empty()) break;
     const SpeedLattice& lattice = coordinator_.ways(robot)[idx(way)]->lattice;
     const geom::Pose2 there = pose_at(lattice.path(), lattice.s_at(conflicts.front().unit));
     bumps.push_back(
         {there * geom::Vec2{0.5 * radius / options_.bump_lengths, 0.0}, radius, options_.bump_weight});
-    if (!add_way(robot, find_path_(robot, bumps, {}, options_.detour_expansions))) continue;
+    ++effort_.paths;
+    if (!add_way(robot, sources_.search(robot, bumps, {}, options_.detour_expansions))) continue;
     way = static_cast<int>(coordinator_.ways(robot).size()) - 1;
     if (best && coordinator_.ways(robot).back()->alone >= best->arrival) continue;
     Placed placed = coordinator_.place_on(robot, way, state, workspace_);
@@ -115,7 +144,7 @@ TeamSearch::Placed TeamSearch::detour(int robot, const TeamState& state, Placed 
 
 // A path that keeps off everybody who has not left yet or has arrived for good.
 TeamSearch::Placed TeamSearch::around_the_parked(int robot, const TeamState& state) {
-  if (!find_path_) return nullptr;
+  if (!sources_.search) return nullptr;
   const world::Scenario& scenario = coordinator_.scenario();
   const auto own_start = coordinator_.footprint_at(robot, scenario.robots[idx(robot)].start);
   const auto own_goal = coordinator_.footprint_at(robot, scenario.robots[idx(robot)].goal);
@@ -129,7 +158,8 @@ TeamSearch::Placed TeamSearch::around_the_parked(int robot, const TeamState& sta
     park(coordinator_.footprint_at(other, scenario.robots[idx(other)].goal));
     if (!state[idx(other)]) park(coordinator_.footprint_at(other, scenario.robots[idx(other)].start));
   }
-  if (!add_way(robot, find_path_(robot, {}, parked, 4 * options_.detour_expansions))) return nullptr;
+  ++effort_.paths;
+  if (!add_way(robot, sources_.search(robot, {}, parked, 4 * options_.detour_expansions))) return nullptr;
   return coordinator_.place_on(robot, static_cast<int>(coordinator_.ways(robot).size()) - 1, state,
                                workspace_);
 }
@@ -143,7 +173,7 @@ bool TeamSearch::add_way(int robot, std::optional<Path> path) {
 bool TeamSearch::make_room(int robot, TeamState& state) {
   TeamState trial = state;
   std::vector<int> out;
-  for (const auto& conflict : coordinator_.conflicts(robot, fastest_way(robot), state)) {
+  for (const auto& conflict : coordinator_.conflicts(robot, fastest_way(robot), state, workspace_)) {
     if (conflict.robot < 0 || coordinator_.fixed(conflict.robot)) continue;
     trial[idx(conflict.robot)] = nullptr;
     out.push_back(conflict.robot);
@@ -151,48 +181,72 @@ bool TeamSearch::make_room(int robot, TeamState& state) {
   }
   if (out.empty()) return false;
   out.insert(out.begin(), robot);
-  if (!replace_group(out, trial)) return false;
+  if (!replace_group(out, trial, std::numeric_limits<double>::infinity())) return false;
   state = std::move(trial);
   return true;
 }
 
-bool TeamSearch::replace_group(const std::vector<int>& group, TeamState& state) {
+// Puts the group back, one after the other; false as soon as somebody cannot go, or the sum of their arrivals
+// can no longer stay below `limit`.
+bool TeamSearch::replace_group(const std::vector<int>& group, TeamState& state, double limit) {
+  for (const int robot : group) limit -= coordinator_.alone(robot);
   for (const int robot : group) {
-    state[idx(robot)] = place(robot, state);
+    limit += coordinator_.alone(robot);
+    ++effort_.placements;
+    state[idx(robot)] = coordinator_.place(robot, state, workspace_, limit);
     if (!state[idx(robot)]) return false;
+    limit -= state[idx(robot)]->arrival;
   }
   return true;
 }
 
 void TeamSearch::improve(TeamState& state, const Deadline& deadline) {
-  std::vector<double> delay(state.size());
-  double cost = sum_of_arrivals(state);
   const int rounds = static_cast<int>(options_.rounds * coordinator_.robots());
+  int detours = sources_.search ? static_cast<int>(options_.improving_paths * coordinator_.robots()) : 0;
   for (int round = 0; round < rounds && !deadline.expired(); ++round) {
-    double total = 0.0;
-    for (int i = 0; i < coordinator_.robots(); ++i)
-      total += delay[idx(i)] = coordinator_.fixed(i) ? 0.0 : state[idx(i)]->arrival - coordinator_.alone(i);
-    constexpr double kNothing = 1e-6;
-    if (total < kNothing) return;
-    double pick = rng_.uniform(0.0, total);
-    int robot = 0;
-    while (robot + 1 < coordinator_.robots() && pick >= delay[idx(robot)]) pick -= delay[idx(robot++)];
-    if (delay[idx(robot)] < kNothing) continue;
+    const int robot = pick_late(state);
+    if (robot < 0) return;
+    if (rng_.uniform() < 0.5) {
+      TeamState others = state;
+      others[idx(robot)] = nullptr;
+      state[idx(robot)] = side_step(robot, others, state[idx(robot)]);
+    }
+    if (detours > 0 && late(robot, state[idx(robot)]->arrival) && rng_.uniform() < 0.5) {
+      --detours;
+      TeamState others = state;
+      others[idx(robot)] = nullptr;
+      state[idx(robot)] = detour(robot, others, state[idx(robot)], 1);
+    }
     TeamState trial = state;
     const std::vector<int> group = group_around(robot, trial);
-    for (const int out : group) trial[idx(out)] = nullptr;
-    if (!replace_group(group, trial)) continue;
-    const double trial_cost = sum_of_arrivals(trial);
-    if (trial_cost >= cost - kNothing) continue;
-    cost = trial_cost;
-    state = std::move(trial);
+    double before = 0.0;
+    for (const int out : group) {
+      before += state[idx(out)]->arrival;
+      trial[idx(out)] = nullptr;
+    }
+    constexpr double kWorthwhile = 1e-3;  // s
+    if (replace_group(group, trial, before - kWorthwhile)) state = std::move(trial);
   }
+}
+
+// A robot at random, in proportion to its delay; −1 when nobody is late at all.
+int TeamSearch::pick_late(const TeamState& state) {
+  constexpr double kNothing = 1e-3;  // s
+  std::vector<double> upto(state.size());
+  double total = 0.0;
+  for (int i = 0; i < coordinator_.robots(); ++i) {
+    const double delay = coordinator_.fixed(i) ? 0.0 : state[idx(i)]->arrival - coordinator_.alone(i);
+    upto[idx(i)] = total += delay < kNothing ? 0.0 : delay;
+  }
+  if (total <= 0.0) return -1;
+  const double pick = rng_.uniform(0.0, total);
+  return static_cast<int>(std::upper_bound(upto.begin(), upto.end(), pick) - upto.begin());
 }
 
 // The late robot and some of those in its way, in a random order that puts it first more often than not.
 std::vector<int> TeamSearch::group_around(int robot, const TeamState& state) {
   std::vector<int> group{robot};
-  for (const auto& conflict : coordinator_.conflicts(robot, fastest_way(robot), state)) {
+  for (const auto& conflict : coordinator_.conflicts(robot, fastest_way(robot), state, workspace_)) {
     if (static_cast<int>(group.size()) > options_.neighbours) break;
     if (conflict.robot >= 0 && !coordinator_.fixed(conflict.robot)) group.push_back(conflict.robot);
   }

@@ -21,12 +21,13 @@ struct TeamSearchOptions {
   int detour_expansions = 300;  ///< of one such search
   double late = 1.0;  ///< s, a delay worth a detour, or `late_share` of the time alone when that is longer
   double late_share = 0.2;
-  int late_tries = 1;         ///< paths asked for when a robot is late
-  int most_ways = 6;          ///< kept for one robot
-  double rounds = 3.0;        ///< neighbourhoods tried for each robot after everybody has a motion
-  int neighbours = 4;         ///< robots taken out together with the late one
-  double bump_lengths = 2.1;  ///< radius of the places to avoid, in car lengths
-  double bump_weight = 2.5;   ///< what a metre in them costs
+  int late_tries = 0;            ///< paths asked for when a robot is late in a pass
+  int most_ways = 6;             ///< kept for one robot
+  double rounds = 4.0;           ///< neighbourhoods tried for each robot after everybody has a motion
+  double improving_paths = 0.4;  ///< paths asked for in that time, for each robot
+  int neighbours = 4;            ///< robots taken out together with the late one
+  double bump_lengths = 2.1;     ///< radius of the places to avoid, in car lengths
+  double bump_weight = 2.5;      ///< what a metre in them costs
 };
 
 /// Decides who goes when and along which of its ways: priority passes with detours until everybody has a
@@ -34,18 +35,28 @@ struct TeamSearchOptions {
 /// while the sum of arrivals falls.
 class TeamSearch {
  public:
-  /// A path around the bumps, or nothing; called from one thread.
-  using FindPath =
-      std::function<std::optional<Path>(int robot, std::span<const Bump> bumps,
-                                        std::span<const std::vector<geom::Vec2>> parked, int expansions)>;
+  /// Where other paths come from. Both may be empty: then the ways at hand must do. Called from one thread.
+  struct Sources {
+    /// A path around the bumps and the parked.
+    std::function<std::optional<Path>(int robot, std::span<const Bump> bumps,
+                                      std::span<const std::vector<geom::Vec2>> parked, int expansions)>
+        search;
+    /// The path shifted to the left by `offset` m around its driven length s.
+    std::function<std::optional<Path>(int robot, const Path& path, double s, double offset)> side_step;
+  };
 
-  /// @param find_path may be empty: then the ways at hand must do
-  TeamSearch(Coordinator& coordinator, FindPath find_path, const TeamSearchOptions& options,
-             std::uint64_t seed);
+  TeamSearch(Coordinator& coordinator, Sources sources, const TeamSearchOptions& options, std::uint64_t seed);
 
   /// Tries until every robot has a motion. Robots that have one in `state` (the fixed) keep it. False:
   /// `state` holds the pass that came furthest.
   bool solve(TeamState& state, const Deadline& deadline, std::span<const int> first_order = {});
+  /// What it took so far.
+  struct Effort {
+    int paths = 0;       ///< searched for
+    int side_steps = 0;  ///< that were free of obstacles
+    int placements = 0;  ///< velocity plans among the others, over all ways
+  };
+  const Effort& effort() const { return effort_; }
   /// Lowers the sum of arrivals of a complete state; never makes it worse.
   void improve(TeamState& state, const Deadline& deadline);
 
@@ -53,6 +64,7 @@ class TeamSearch {
   using Placed = std::shared_ptr<const Placement>;
   int pass(const std::vector<int>& order, TeamState& state, const Deadline& deadline);
   Placed place(int robot, const TeamState& state);
+  Placed side_step(int robot, const TeamState& state, Placed best);
   Placed detour(int robot, const TeamState& state, Placed best, int tries);
   Placed around_the_parked(int robot, const TeamState& state);
   bool make_room(int robot, TeamState& state);
@@ -60,14 +72,16 @@ class TeamSearch {
   bool late(int robot, double arrival) const;
   int fastest_way(int robot) const;
   std::vector<int> group_around(int robot, const TeamState& state);
-  bool replace_group(const std::vector<int>& group, TeamState& state);
+  bool replace_group(const std::vector<int>& group, TeamState& state, double limit);
+  int pick_late(const TeamState& state);
 
   Coordinator& coordinator_;
-  FindPath find_path_;
+  Sources sources_;
   TeamSearchOptions options_;
   Rng rng_;
   Precedence precedence_;
-  VelocityWorkspace workspace_;
+  CoordinatorWorkspace workspace_;
+  Effort effort_;
 };
 
 /// Σ arrival over the robots that have a motion, s.

@@ -72,7 +72,7 @@ std::vector<Vec2> enclosing_polygon(const geom::Convex& shape) {
 }  // namespace
 
 std::span<Vec2> MovingBody::add_event(int begin, int end) {
-  events_.push_back({{}, begin, end});
+  events_.push_back({{}, {}, begin, end});
   polygons_.resize(polygons_.size() + corners_);
   return {&polygons_[polygons_.size() - corners_], corners_};
 }
@@ -94,7 +94,7 @@ void MovingBody::finish() {
 
 MovingBody::MovingBody(const Path& path, std::span<const ProfileKnot> profile,
                        const SweptFootprint& footprint, double tick)
-    : corners_(footprint.corners()) {
+    : corners_(footprint.corners()), boxes_(footprint.is_box()) {
   Walker walker(path, profile);
   const int rest = static_cast<int>(std::ceil(profile.back().t / tick + 0.5));
   events_.reserve(static_cast<std::size_t>(rest) + 1);
@@ -111,7 +111,8 @@ MovingBody::MovingBody(const Path& path, std::span<const ProfileKnot> profile,
       Slack slack{after - now, now - before, place.curvature};
       if (!place.one_gear) slack.ahead = slack.behind = std::max(slack.ahead, slack.behind);
       if (place.backwards) std::swap(slack.ahead, slack.behind);
-      footprint.cover(place.pose, slack, add_event(q, q + 1));
+      const std::span<Vec2> out = add_event(q, q + 1);
+      events_.back().turned = footprint.cover(place.pose, slack, out);
     }
     was_still = still;
     before = after;
@@ -124,6 +125,7 @@ MovingBody::MovingBody(const geom::Convex& shape, std::span<const world::Waypoin
   const std::vector<Vec2> polygon = enclosing_polygon(shape);
   const SweptFootprint footprint(polygon);
   corners_ = footprint.corners();
+  boxes_ = footprint.is_box();
   const int rest = std::max(0, static_cast<int>(std::ceil(motion.back().t / tick + 0.5)));
   std::size_t next = 0;  // first waypoint later than the span of this tick
   for (int q = 0; q <= rest; ++q) {
@@ -138,7 +140,8 @@ MovingBody::MovingBody(const geom::Convex& shape, std::span<const world::Waypoin
     while (next > 0 && motion[next - 1].t >= (q - 0.5) * tick) --next;
     for (; next < motion.size() && motion[next].t <= (q + 0.5) * tick; ++next)
       if (motion[next].t >= (q - 0.5) * tick) include(motion[next].pose);
-    footprint.grow(pose, away, add_event(q, q == rest ? kForever : q + 1));
+    const std::span<Vec2> out = add_event(q, q == rest ? kForever : q + 1);
+    events_.back().turned = footprint.grow(pose, away, out);
   }
   finish();
 }

@@ -19,6 +19,7 @@ class MovingBody {
 
   struct Event {
     geom::Box box;
+    OrientedBox turned;
     int begin, end;  ///< ticks, [begin, end); kForever: it stays
   };
   struct Chunk {
@@ -41,6 +42,7 @@ class MovingBody {
     return {&polygons_[static_cast<std::size_t>(event) * corners_], corners_};
   }
   const geom::Box& box() const { return box_; }
+  bool boxes() const { return boxes_; }  ///< the polygons are the turned boxes
   int rest_tick() const {
     return events_.empty() ? 0 : events_.back().begin;
   }  ///< from when on it stands for good
@@ -54,6 +56,7 @@ class MovingBody {
   std::vector<Chunk> chunks_;
   std::vector<geom::Vec2> polygons_;
   geom::Box box_;
+  bool boxes_ = false;
 };
 
 /// Where a moving obstacle's body frame is at time t: straight between waypoints, heading the short way

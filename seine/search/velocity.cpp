@@ -30,6 +30,12 @@ void or_shifted(std::uint64_t* into, const std::uint64_t* bits, int shift, int l
   if (high < last) into[high + 1] |= carry;
 }
 
+// A move is tested at its middle: unit + level, except that leaving rest (0, +1) is tested one unit ahead and
+// coming to rest (1, −1) one unit back: units at which a car rests are tested without any slack.
+int middle_of(int level, int change) {
+  return level == 0 && change == 1 ? 1 : level == 1 && change == -1 ? 0 : level;
+}
+
 // The search itself. Layer t holds, for each speed level, the set of units where the car can be at tick 2t.
 class Program {
  public:
@@ -51,7 +57,7 @@ class Program {
   void shift_moves(int layer, int k, const std::uint64_t* middle);
   bool stays_free(int tick) const { return tick > last_taken_goal_; }
   int furthest(int layer);
-  std::vector<ProfileKnot> trace_back(int layer);
+  std::vector<ProfileKnot> trace_back(int layer, std::vector<int>& tested);
   bool came_from(int layer, int k, int unit, int change);
 
   const SpeedLattice& lattice_;
@@ -84,8 +90,6 @@ void Program::advance(int layer) {
   if (high_alive == 0 && low_ < high_) --high_;
 }
 
-// A move is tested at its middle: unit + level, except that leaving rest (0, +1) is tested one unit ahead and
-// coming to rest (1, −1) one unit back: units at which a car rests are tested without any slack.
 void Program::shift_moves(int layer, int k, const std::uint64_t* middle) {
   const std::uint64_t* from = level(layer, k);
   std::uint64_t any = 0;
@@ -93,7 +97,7 @@ void Program::shift_moves(int layer, int k, const std::uint64_t* middle) {
   if (any == 0) return;
   for (int j = -1; j <= 1; ++j) {
     if (k + j < 0 || k + j > levels_) continue;
-    const int ahead = k == 0 && j == 1 ? 1 : k == 1 && j == -1 ? 0 : k;
+    const int ahead = middle_of(k, j);
     const std::uint64_t* allowed = lattice_.moves(k, j);
     for (int w = low_; w <= high_; ++w) {
       std::uint64_t blocked = middle[w] >> ahead;
@@ -122,33 +126,28 @@ VelocityPlan Program::run() {
   const int goal = lattice_.units(), first = lattice_.start_step();
   for (int q = occupied_.ticks() - 1; q >= 0 && last_taken_goal_ < 0; --q)
     if (test(occupied_.row(q), goal)) last_taken_goal_ = q;
-  if (last_taken_goal_ == occupied_.ticks() - 1) {
-    plan.furthest = goal;  // taken for good
-    return plan;
-  }
+  if (last_taken_goal_ == occupied_.ticks() - 1) return plan;  // taken for good
   layers_.assign(idx(first + 1) * stride_, 0);
   moved_.assign(idx(words_ + 1), 0);
   if (!test(taken(0), 0) && !test(taken(first), 0) && !test(taken(2 * first), 0))
     *level(first, lattice_.start_level()) = 1;
-  int best = 0;
   if (options_.want_reach) plan.reach.assign(idx(2 * first), 0);
   for (int layer = first; 2 * layer <= options_.ticks; ++layer) {
     if (test(level(layer, 0), goal) && stays_free(2 * layer)) {
       plan.found = true;
-      plan.profile = trace_back(layer);
+      plan.tested.assign(idx(2 * layer + 1), 0);
+      plan.profile = trace_back(layer, plan.tested);
       plan.arrival = plan.profile.back().t;
       return plan;
     }
     const int front = furthest(layer);
     if (front < 0) break;
-    best = std::max(best, front);
     advance(layer);
     if (options_.want_reach) {
       plan.reach.push_back(front);
       plan.reach.push_back(std::max(front, furthest(layer + 1)));
     }
   }
-  plan.furthest = best;
   return plan;
 }
 
@@ -157,12 +156,11 @@ bool Program::came_from(int layer, int k, int unit, int change) {
   const int before = k - change, from = unit - 2 * before - change;
   if (before < 0 || before > levels_ || from < 0) return false;
   if (!test(level(layer, before), from) || !test(lattice_.moves(before, change), from)) return false;
-  const int ahead = before == 0 && change == 1 ? 1 : before == 1 && change == -1 ? 0 : before;
-  return !test(taken(2 * layer + 1), from + ahead);
+  return !test(taken(2 * layer + 1), from + middle_of(before, change));
 }
 
 // Backwards in time the car goes as fast as it can: it leaves as late as possible.
-std::vector<ProfileKnot> Program::trace_back(int layer) {
+std::vector<ProfileKnot> Program::trace_back(int layer, std::vector<int>& tested) {
   std::vector<ProfileKnot> knots;
   int unit = lattice_.units(), k = 0;
   const double step = lattice_.grid().step;
@@ -177,8 +175,10 @@ std::vector<ProfileKnot> Program::trace_back(int layer) {
     const int phase = k == 0 && change == 0 ? kStanding : change;
     if (phase != last_phase) knots.push_back(knot(layer));
     last_phase = phase;
+    tested[idx(2 * layer)] = unit;
     k -= change;
     unit -= 2 * k + change;
+    tested[idx(2 * layer - 1)] = unit + middle_of(k, change);
   }
   knots.push_back(knot(layer));
   if (lattice_.start_step() > 0) knots.push_back({0.0, 0.0, lattice_.start_speed()});
@@ -188,6 +188,59 @@ std::vector<ProfileKnot> Program::trace_back(int layer) {
 
 }  // namespace
 
+namespace {
+
+// Adds the groups of one chunk that meet one event, neighbours as one mark.
+void mark_event(const SpeedLattice& lattice, const SpeedLattice::Chunk& groups, const MovingBody& body, int e,
+                double clearance, int furthest, std::vector<Mark>& marks) {
+  const MovingBody::Event& event = body.events()[idx(e)];
+  const geom::Box near = event.box.inflated(clearance);
+  for (int g = groups.first; g < groups.last; ++g) {
+    const SpeedLattice::Group& group = lattice.groups()[idx(g)];
+    if (group.first > furthest) return;
+    if (!group.box.overlaps(near) || apart(lattice, idx(g), body, idx(e), clearance)) continue;
+    if (!marks.empty() && marks.back().begin == event.begin && marks.back().last + 1 == group.first)
+      marks.back().last = group.last;
+    else
+      marks.push_back({event.begin, event.end, group.first, group.last});
+  }
+}
+
+// Sets the bits [first, last].
+void set_range(std::uint64_t* bits, int first, int last) {
+  for (int w = first / kWordBits; w <= last / kWordBits; ++w) {
+    const int low = std::max(first - w * kWordBits, 0), high = std::min(last - w * kWordBits, kWordBits - 1);
+    bits[w] |= (~std::uint64_t{0} >> (kWordBits - 1 - high)) & (~std::uint64_t{0} << low);
+  }
+}
+
+}  // namespace
+
+std::vector<Mark> marks_of(const SpeedLattice& lattice, const MovingBody& body, double clearance,
+                           std::span<const int> reach) {
+  std::vector<Mark> marks;
+  const geom::Box all = body.box().inflated(clearance);
+  if (!all.overlaps(lattice.box())) return marks;
+  // Even at the end of its time the car cannot be beyond this unit.
+  const auto furthest = [&](int end) {
+    return idx(end) <= reach.size() ? reach[idx(end) - 1] : lattice.units();
+  };
+  for (const SpeedLattice::Chunk& groups : lattice.chunks()) {
+    if (!groups.box.overlaps(all)) continue;
+    const geom::Box around = groups.box.inflated(clearance);
+    const int first = lattice.groups()[idx(groups.first)].first;
+    for (const MovingBody::Chunk& events : body.chunks()) {
+      if (!events.box.overlaps(around) || furthest(events.end) < first) continue;
+      for (int e = events.first; e < events.last; ++e) {
+        const MovingBody::Event& event = body.events()[idx(e)];
+        if (event.box.overlaps(around))
+          mark_event(lattice, groups, body, e, clearance, furthest(event.end), marks);
+      }
+    }
+  }
+  return marks;
+}
+
 void Occupied::reset(const SpeedLattice& lattice, int ticks) {
   ticks_ = std::max(ticks, 1);
   stride_ = idx(lattice.words() + 1);
@@ -195,54 +248,41 @@ void Occupied::reset(const SpeedLattice& lattice, int ticks) {
   lasting_.clear();
 }
 
-void Occupied::mark(int begin, int end, int first, int last) {
-  if (end == MovingBody::kForever) {
-    lasting_.push_back({std::min(begin, ticks_ - 1), first, last});
-    return;
-  }
-  for (int q = begin; q < std::min(end, ticks_); ++q)
-    for (int unit = first; unit <= last; ++unit)
-      bits_[idx(q) * stride_ + idx(unit / kWordBits)] |= std::uint64_t{1} << (unit % kWordBits);
-}
-
-void Occupied::add(const SpeedLattice& lattice, const MovingBody& body, double clearance,
-                   std::span<const int> reach) {
-  const geom::Box all = body.box().inflated(clearance);
-  if (!all.overlaps(lattice.box())) return;
-  const auto unreached = [&](int end, int unit) {  // even at the end of its time the car cannot be there
-    return idx(end) <= reach.size() && reach[idx(end) - 1] < unit;
-  };
-  for (const SpeedLattice::Chunk& groups : lattice.chunks()) {
-    if (!groups.box.overlaps(all)) continue;
-    const geom::Box around = groups.box.inflated(clearance);
-    for (const MovingBody::Chunk& events : body.chunks()) {
-      if (!events.box.overlaps(around)) continue;
-      for (int e = events.first; e < events.last; ++e) {
-        const MovingBody::Event& event = body.events()[idx(e)];
-        if (!event.box.overlaps(around)) continue;
-        const geom::Box near = event.box.inflated(clearance);
-        for (int g = groups.first; g < groups.last; ++g) {
-          const SpeedLattice::Group& group = lattice.groups()[idx(g)];
-          if (!group.box.overlaps(near) || unreached(event.end, group.first)) continue;
-          if (!apart(lattice.polygon(idx(g)), body.polygon(e), clearance))
-            mark(event.begin, event.end, group.first, group.last);
-        }
-      }
+void Occupied::add(std::span<const Mark> marks) {
+  for (const Mark& mark : marks) {
+    if (mark.end == MovingBody::kForever) {
+      lasting_.push_back(mark);
+      lasting_.back().begin = std::min(mark.begin, ticks_ - 1);
+      continue;
     }
+    for (int q = mark.begin; q < std::min(mark.end, ticks_); ++q)
+      set_range(&bits_[idx(q) * stride_], mark.first, mark.last);
   }
 }
 
 void Occupied::finish() {
-  std::sort(lasting_.begin(), lasting_.end(),
-            [](const Lasting& a, const Lasting& b) { return a.begin < b.begin; });
+  std::sort(lasting_.begin(), lasting_.end(), [](const Mark& a, const Mark& b) { return a.begin < b.begin; });
   std::vector<std::uint64_t> sum(stride_, 0);
   std::size_t next = 0;
   for (int q = lasting_.empty() ? ticks_ : lasting_.front().begin; q < ticks_; ++q) {
     for (; next < lasting_.size() && lasting_[next].begin <= q; ++next)
-      for (int unit = lasting_[next].first; unit <= lasting_[next].last; ++unit)
-        sum[idx(unit / kWordBits)] |= std::uint64_t{1} << (unit % kWordBits);
+      set_range(sum.data(), lasting_[next].first, lasting_[next].last);
     for (std::size_t w = 0; w < stride_; ++w) bits_[idx(q) * stride_ + w] |= sum[w];
   }
+}
+
+bool apart(const SpeedLattice& lattice, std::size_t group, const MovingBody& body, std::size_t event,
+           double clearance) {
+  // Starts that touch, or stand exactly at the margin, are legal: as much is forgiven to rounding, m.
+  constexpr double kTouch = 1e-6;
+  const OrientedBox &a = lattice.groups()[group].turned, &b = body.events()[event].turned;
+  const Standing boxes = standing(a, b, clearance - kTouch);
+  if (boxes == Standing::kApart) return true;
+  if (lattice.boxes() && body.boxes()) {
+    if (boxes == Standing::kOverlap) return false;
+    return squared_distance(a, b) >= (clearance - kTouch) * (clearance - kTouch);
+  }
+  return apart(lattice.polygon(group), body.polygon(static_cast<int>(event)), clearance);
 }
 
 VelocityPlan plan_velocity(const SpeedLattice& lattice, VelocityWorkspace& workspace,

@@ -10,38 +10,47 @@
 
 namespace seine::search {
 
+/// Units [first, last] that are taken during ticks [begin, end).
+struct Mark {
+  int begin, end;  ///< end may be MovingBody::kForever
+  int first, last;
+};
+
+/// The units whose polygon comes closer than `clearance` to the body, and when. `reach[q]` is the furthest
+/// unit the car can be at by tick q (empty: anywhere): what lies beyond is left out.
+std::vector<Mark> marks_of(const SpeedLattice& lattice, const MovingBody& body, double clearance,
+                           std::span<const int> reach);
+
 /// Which units of a lattice are taken at which tick, as bits.
 class Occupied {
  public:
   void reset(const SpeedLattice& lattice, int ticks);
-  /// Marks the units whose polygon comes closer than `clearance` to the body. `reach[q]` is the furthest unit
-  /// the car can be at by tick q (empty: anywhere).
-  void add(const SpeedLattice& lattice, const MovingBody& body, double clearance, std::span<const int> reach);
+  void add(std::span<const Mark> marks);
+  /// Spreads what stays for good over all later rows; call once after the last `add`.
+  void finish();
 
   int ticks() const { return ticks_; }
   /// One row of `words` (plus one word of padding) for each tick.
   const std::uint64_t* row(int tick) const { return &bits_[static_cast<std::size_t>(tick) * stride_]; }
-  bool taken(int tick, int unit) const { return (row(tick)[unit / 64] >> (unit % 64) & 1) != 0; }
-  /// Spreads what stays for good over all later rows; call once after the last `add`.
-  void finish();
 
  private:
-  void mark(int begin, int end, int first, int last);
   int ticks_ = 0;
   std::size_t stride_ = 0;
   std::vector<std::uint64_t> bits_;
-  struct Lasting {
-    int begin, first, last;
-  };
-  std::vector<Lasting> lasting_;
+  std::vector<Mark> lasting_;
 };
+
+/// Whether the car, in this group of units, keeps the clearance to the body during this event.
+bool apart(const SpeedLattice& lattice, std::size_t group, const MovingBody& body, std::size_t event,
+           double clearance);
 
 /// The fastest way along a path among what is taken, or how far it got.
 struct VelocityPlan {
   bool found = false;
   std::vector<ProfileKnot> profile;  ///< when found; consecutive knots of equal acceleration are merged
   double arrival = 0.0;              ///< s, when found
-  int furthest = 0;                  ///< unit, when not found: how far the car could get
+  std::vector<int>
+      tested;              ///< when found: per tick, the unit the car is tested at, then at its goal for good
   std::vector<int> reach;  ///< per tick, the furthest unit that can be reached (only when asked for)
 };
 
