@@ -15,7 +15,6 @@ using geom::Vec2;
 using world::Obstacle;
 using world::Scenario;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr Range kRate{1e-3, 1e4};       // speeds and accelerations that let a car move
 constexpr Range kSteering{1e-3, 1.5};   // rad; π/2 has no turning circle
 constexpr Range kSideLimit{1e-3, 1e6};  // lateral acceleration, steering rate
