@@ -140,7 +140,7 @@ std::vector<Finding> LimitProof::findings() const {
     }
     if (rule.undecided) {
       findings.push_back({{Kind::undecided, rule.undecided_time, robot_, -1, 0.0, rule.limit,
-                           format("%s: the limit of its %s could not be proved at t = %.4f s", name.c_str(),
+                           format("%s: the limit %s could not be proved at t = %.4f s", name.c_str(),
                                   name_of(rule.kind), rule.undecided_time)},
                           0.0});
     }

@@ -24,21 +24,21 @@ const char* name_of(Kind kind) {
     case Kind::speed:
       return "speed";
     case Kind::reverse_speed:
-      return "reverse speed";
+      return "reverse_speed";
     case Kind::acceleration:
       return "acceleration";
     case Kind::lateral_acceleration:
-      return "lateral acceleration";
+      return "lateral_acceleration";
     case Kind::curvature:
       return "curvature";
     case Kind::steering_rate:
-      return "steering rate";
+      return "steering_rate";
     case Kind::robot_clearance:
-      return "robot clearance";
+      return "robot_clearance";
     case Kind::obstacle_clearance:
-      return "obstacle clearance";
+      return "obstacle_clearance";
     case Kind::moving_obstacle_clearance:
-      return "moving obstacle clearance";
+      return "moving_obstacle_clearance";
     case Kind::bounds:
       return "bounds";
     case Kind::undecided:

@@ -10,7 +10,7 @@ namespace seine::certify::test {
 namespace {
 
 #ifdef SEINE_SANITIZED
-constexpr int kLimitPlans = 12, kDistancePlans = 4;
+constexpr int kLimitPlans = 8, kDistancePlans = 2;
 #else
 constexpr int kLimitPlans = 150, kDistancePlans = 60;
 #endif
