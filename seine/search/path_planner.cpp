@@ -19,25 +19,63 @@ constexpr double kTouch = 1e-9;        // m: rounding of a start that stands exa
 constexpr double kDiscCell =
     0.35;  // of the car's width: the side of a heuristic cell, small enough that walls stay tight
 
+constexpr double kFineCell = 0.12;        // the same where it is in doubt whether a gap is wide enough
 constexpr double kReverse = 1.5;          // what a metre backwards costs
 constexpr double kSteeringChange = 0.05;  // turning radii, from straight to the tightest turn
 
 /// One rung of the ladder of searches: from coarse and quick to fine and patient.
 struct Rung {
-  double radius;                // of the smallest turning radius
-  double step, min_step, cell;  // turning radii
-  bool gears_apart;
+  double radius;          // of the smallest turning radius
+  double step, min_step;  // turning radii
+  double cell;            // turning radii
   int headings;
+  bool gears_apart;
   int forward, backward;
   double slack;        // of the full slack
   double gear_change;  // turning radii
   double share;        // of the expansions allowed
-  bool from_tighter_end;
+  bool in_doubt;       // heuristic on the fine grid, search from the tighter end
 };
 constexpr Rung kLadder[] = {
-    {1.1, 0.8, 0.8, 0.45, false, 24, 5, 3, 1.0, 2.0, 0.03, false},
-    {1.02, 0.4, 0.4, 0.2, false, 36, 5, 5, 0.2, 0.5, 0.3, true},
-    {1.0, 0.2, 0.002, 0.006, true, 500, 3, 3, 0.02, 0.05, 1.0, true},
+    // Open ground: a dozen expansions where the straight shot is blocked.
+    {.radius = 1.1,
+     .step = 0.8,
+     .min_step = 0.8,
+     .cell = 0.45,
+     .headings = 24,
+     .gears_apart = false,
+     .forward = 5,
+     .backward = 3,
+     .slack = 1.0,
+     .gear_change = 2.0,
+     .share = 0.03,
+     .in_doubt = false},
+    // Parking, narrow doors.
+    {.radius = 1.02,
+     .step = 0.4,
+     .min_step = 0.4,
+     .cell = 0.2,
+     .headings = 36,
+     .gears_apart = false,
+     .forward = 5,
+     .backward = 5,
+     .slack = 0.2,
+     .gear_change = 0.5,
+     .share = 0.3,
+     .in_doubt = true},
+    // Slots that take a dozen moves of a few centimetres.
+    {.radius = 1.0,
+     .step = 0.2,
+     .min_step = 0.002,
+     .cell = 0.006,
+     .headings = 500,
+     .gears_apart = true,
+     .forward = 3,
+     .backward = 3,
+     .slack = 0.02,
+     .gear_change = 0.05,
+     .share = 1.0,
+     .in_doubt = true},
 };
 
 /// Costs to go that were worked out before, for whoever comes with the same goal; each is lent to one search
@@ -45,7 +83,7 @@ constexpr Rung kLadder[] = {
 class CostToGoCache {
  public:
   std::unique_ptr<CostToGo> borrow(const PointDistances& distances, double radius, geom::Vec2 goal) {
-    const Key key{distances.column(goal.x), distances.row(goal.y), radius};
+    const Key key{&distances, distances.column(goal.x), distances.row(goal.y), radius};
     {
       const std::lock_guard lock(mutex_);
       const auto found =
@@ -62,7 +100,8 @@ class CostToGoCache {
                  std::unique_ptr<CostToGo> used) {
     constexpr std::size_t kMaxKept = 256, kMaxBytes = 64u << 20;
     const std::lock_guard lock(mutex_);
-    kept_.emplace_back(Key{distances.column(goal.x), distances.row(goal.y), radius}, std::move(used));
+    kept_.emplace_back(Key{&distances, distances.column(goal.x), distances.row(goal.y), radius},
+                       std::move(used));
     std::size_t bytes = 0, first = kept_.size();
     while (first > 0 && kept_.size() - first < kMaxKept && bytes < kMaxBytes)
       bytes += kept_[--first].second->bytes();
@@ -71,6 +110,7 @@ class CostToGoCache {
 
  private:
   struct Key {
+    const PointDistances* distances;
     int column, row;
     double radius;
     friend bool operator==(const Key&, const Key&) = default;
@@ -118,10 +158,20 @@ struct PathPlanner::Impl {
   LatticeResult climb(const Rung& rung, const FootprintChecker& checker, const Route& ends, bool backwards,
                       const PathOptions& options, int expansions);
 
+  /// The grid of the heuristic where passages are in doubt, made when first needed.
+  const PointDistances& fine() {
+    std::call_once(fine_made, [this] {
+      fine_distances = std::make_unique<PointDistances>(map, kFineCell * model.width(), length);
+    });
+    return *fine_distances;
+  }
+
   const world::StaticMap& map;
   vehicle::Model model;
   double length;
   PointDistances distances;
+  std::once_flag fine_made;
+  std::unique_ptr<PointDistances> fine_distances;
   DiscCover cover;
   geom::Vec2 reference;  // body frame: the middle of the widest disc inside the footprint
   CostToGoCache cache;
@@ -152,7 +202,7 @@ LatticeResult PathPlanner::Impl::climb(const Rung& rung, const FootprintChecker&
                                        bool backwards, const PathOptions& options, int expansions) {
   const double radius = rung.radius / model.max_curvature();
   const double disc = cover.widest().inner + options.clearance;
-  const Loan to_go(cache, distances, disc, ends.goal * reference);
+  const Loan to_go(cache, rung.in_doubt ? fine() : distances, disc, ends.goal * reference);
   LatticeProblem problem;
   problem.start = ends.start;
   problem.goal = ends.goal;
@@ -197,7 +247,7 @@ std::optional<Path> PathPlanner::Impl::plan(const geom::Pose2& start, const geom
     checker.ease_slack(start.position(), kEaseRadius * length, std::min(slack, 0.5 * room_start));
     checker.ease_slack(goal.position(), kEaseRadius * length, std::min(slack, 0.5 * room_goal));
     // The way out of a tight place is easier to find than the way in: search from there.
-    const bool backwards = rung.from_tighter_end && room_goal < room_start;
+    const bool backwards = rung.in_doubt && room_goal < room_start;
     const int expansions =
         std::min(left, std::max(150, static_cast<int>(rung.share * options.max_expansions)));
     LatticeResult result = climb(rung, checker, backwards ? Route{goal, start, {}} : Route{start, goal, {}},
