@@ -10,6 +10,10 @@ std::size_t idx(int i) {
   return static_cast<std::size_t>(i);
 }
 
+int unplaced(const TeamState& state) {
+  return static_cast<int>(std::count(state.begin(), state.end(), nullptr));
+}
+
 }  // namespace
 
 double sum_of_arrivals(const TeamState& state) {
@@ -41,49 +45,77 @@ int TeamSearch::fastest_way(int robot) const {
 
 bool TeamSearch::solve(TeamState& state, const Deadline& deadline, std::span<const int> first_order) {
   const TeamState given = state;
-  TeamState best = state;
-  int most = -1;
+  TeamState best;
+  searches_ = effort_.paths + static_cast<int>(options_.rescuing_paths * coordinator_.robots());
+  int fewest = coordinator_.robots() + 1;
   std::vector<double> keys;
   for (int i = 0; i < coordinator_.robots(); ++i) keys.push_back(coordinator_.alone(i));
   std::vector<int> order(first_order.begin(), first_order.end());
   if (order.empty()) order = precedence_.order(keys);
   for (int attempt = 0; attempt < options_.passes && !deadline.expired(); ++attempt) {
     state = given;
-    const int failed = pass(order, state, deadline);
-    if (failed < 0) return true;
-    const auto placed = static_cast<int>(
-        std::count_if(state.begin(), state.end(), [](const auto& p) { return p != nullptr; }));
-    if (placed > most) {
-      most = placed;
+    pass(order, state, deadline);
+    repair(state, deadline);
+    const int left = unplaced(state);
+    if (left == 0) return true;
+    if (left < fewest) {
+      fewest = left;
       best = state;
     }
-    const auto at = std::find(order.begin(), order.end(), failed);
-    if (attempt % 5 == 4) {
-      for (double& key : keys) key = rng_.uniform();
-      order = precedence_.order(keys);
-    } else {  // to the front, every other time half way
-      const auto to = attempt % 2 == 0 ? order.begin() : order.begin() + (at - order.begin()) / 2;
-      std::rotate(to, at, at + 1);
-    }
+    for (double& key : keys) key = rng_.uniform();
+    order = precedence_.order(keys);
   }
-  state = best;
+  if (!best.empty()) state = best;
   return false;
 }
 
-// Everybody in this order; returns the robot that found no motion, or −1.
-int TeamSearch::pass(const std::vector<int>& order, TeamState& state, const Deadline& deadline) {
-  for (const int robot : order) {
-    if (state[idx(robot)]) continue;
-    if (deadline.expired() || coordinator_.ways(robot).empty()) return robot;
-    Placed placed = place(robot, state);
-    if (!placed || late(robot, placed->arrival)) placed = side_step(robot, state, placed);
-    if (!placed || (options_.late_tries > 0 && late(robot, placed->arrival)))
-      placed = detour(robot, state, placed, placed ? options_.late_tries : options_.detour_tries);
-    if (!placed) placed = around_the_parked(robot, state);
-    state[idx(robot)] = placed;
-    if (!placed && !make_room(robot, state)) return robot;
+// Everybody in this order; who finds no motion is left out.
+void TeamSearch::pass(const std::vector<int>& order, TeamState& state, const Deadline& deadline) {
+  for (const int robot : order)
+    if (!state[idx(robot)] && !deadline.expired() && !coordinator_.ways(robot).empty())
+      state[idx(robot)] = place_somehow(robot, state);
+}
+
+// With new paths where the ways at hand lead nowhere.
+TeamSearch::Placed TeamSearch::place_somehow(int robot, const TeamState& state) {
+  Placed placed = place(robot, state);
+  if (!placed || late(robot, placed->arrival)) placed = side_step(robot, state, placed);
+  if (!placed) placed = detour(robot, state, placed, options_.detour_tries);
+  if (!placed) placed = around_the_parked(robot, state, true);
+  return placed;
+}
+
+// Takes somebody who has no motion, lets it go where others are in its way, and tries to put those back. Who
+// is left out changes; the number of them never grows.
+void TeamSearch::repair(TeamState& state, const Deadline& deadline) {
+  const int left = unplaced(state);
+  const int rounds = options_.repairs_each * left;
+  for (int round = 0; round < rounds && !deadline.expired() && unplaced(state) > 0; ++round) {
+    int robot = rng_.below(coordinator_.robots());
+    while (state[idx(robot)] || coordinator_.ways(robot).empty()) robot = (robot + 1) % coordinator_.robots();
+    const int ways = static_cast<int>(coordinator_.ways(robot).size());
+    const int way = rng_.uniform() < 0.5 ? fastest_way(robot) : rng_.below(ways);
+    TeamState trial = state;
+    std::vector<int> out;
+    for (const auto& conflict : coordinator_.conflicts(robot, way, state, workspace_)) {
+      if (conflict.robot < 0 || coordinator_.fixed(conflict.robot)) continue;
+      out.push_back(conflict.robot);
+      trial[idx(conflict.robot)] = nullptr;
+    }
+    // Two that stand nose to nose: one must back off, which no path does that does not see the other.
+    if (rng_.uniform() < 0.5) trial[idx(robot)] = around_the_parked(robot, trial, rng_.uniform() < 0.5);
+    if (!trial[idx(robot)]) trial[idx(robot)] = coordinator_.place_on(robot, way, trial, workspace_);
+    if (!trial[idx(robot)]) trial[idx(robot)] = place(robot, trial);
+    if (!trial[idx(robot)]) continue;
+    shuffle(out, 0);
+    for (const int other : out) trial[idx(other)] = place_somehow(other, trial);
+    if (unplaced(trial) <= unplaced(state)) state = std::move(trial);
   }
-  return -1;
+}
+
+void TeamSearch::shuffle(std::vector<int>& list, int from) {
+  for (int i = static_cast<int>(list.size()) - 1; i > from; --i)
+    std::swap(list[idx(i)], list[idx(from + rng_.below(i - from + 1))]);
 }
 
 TeamSearch::Placed TeamSearch::place(int robot, const TeamState& state) {
@@ -119,12 +151,11 @@ TeamSearch::Placed TeamSearch::side_step(int robot, const TeamState& state, Plac
 
 // Other paths, pushed away from where the unhindered drive meets the others; the pushes add up.
 TeamSearch::Placed TeamSearch::detour(int robot, const TeamState& state, Placed best, int tries) {
-  if (!sources_.search) return best;
   const world::Scenario& scenario = coordinator_.scenario();
   const double radius = options_.bump_lengths * scenario.model_of(scenario.robots[idx(robot)]).length();
   std::vector<Bump> bumps;
   int way = best ? best->way : fastest_way(robot);
-  for (int i = 0; i < tries; ++i) {
+  for (int i = 0; i < tries && may_search(robot); ++i) {
     const auto conflicts = coordinator_.conflicts(robot, way, state, workspace_);
     if (conflicts.empty()) break;
     const SpeedLattice& lattice = coordinator_.ways(robot)[idx(way)]->lattice;
@@ -142,9 +173,9 @@ TeamSearch::Placed TeamSearch::detour(int robot, const TeamState& state, Placed 
   return best;
 }
 
-// A path that keeps off everybody who has not left yet or has arrived for good.
-TeamSearch::Placed TeamSearch::around_the_parked(int robot, const TeamState& state) {
-  if (!sources_.search) return nullptr;
+// A path that keeps off everybody who has no motion yet and, if asked for, off all goals.
+TeamSearch::Placed TeamSearch::around_the_parked(int robot, const TeamState& state, bool goals) {
+  if (!may_search(robot)) return nullptr;
   const world::Scenario& scenario = coordinator_.scenario();
   const auto own_start = coordinator_.footprint_at(robot, scenario.robots[idx(robot)].start);
   const auto own_goal = coordinator_.footprint_at(robot, scenario.robots[idx(robot)].goal);
@@ -155,7 +186,7 @@ TeamSearch::Placed TeamSearch::around_the_parked(int robot, const TeamState& sta
   };
   for (int other = 0; other < coordinator_.robots(); ++other) {
     if (other == robot) continue;
-    park(coordinator_.footprint_at(other, scenario.robots[idx(other)].goal));
+    if (goals) park(coordinator_.footprint_at(other, scenario.robots[idx(other)].goal));
     if (!state[idx(other)]) park(coordinator_.footprint_at(other, scenario.robots[idx(other)].start));
   }
   ++effort_.paths;
@@ -164,26 +195,14 @@ TeamSearch::Placed TeamSearch::around_the_parked(int robot, const TeamState& sta
                                workspace_);
 }
 
-bool TeamSearch::add_way(int robot, std::optional<Path> path) {
-  if (!path || static_cast<int>(coordinator_.ways(robot).size()) >= options_.most_ways) return false;
-  return coordinator_.add_way(robot, std::move(*path));
+bool TeamSearch::may_search(int robot) const {
+  return sources_.search && effort_.paths < searches_ &&
+         static_cast<int>(coordinator_.ways(robot).size()) < options_.most_ways;
 }
 
-// Takes those out that block the robot, lets it go, and puts them back.
-bool TeamSearch::make_room(int robot, TeamState& state) {
-  TeamState trial = state;
-  std::vector<int> out;
-  for (const auto& conflict : coordinator_.conflicts(robot, fastest_way(robot), state, workspace_)) {
-    if (conflict.robot < 0 || coordinator_.fixed(conflict.robot)) continue;
-    trial[idx(conflict.robot)] = nullptr;
-    out.push_back(conflict.robot);
-    if (static_cast<int>(out.size()) > options_.neighbours) break;
-  }
-  if (out.empty()) return false;
-  out.insert(out.begin(), robot);
-  if (!replace_group(out, trial, std::numeric_limits<double>::infinity())) return false;
-  state = std::move(trial);
-  return true;
+bool TeamSearch::add_way(int robot, std::optional<Path> path) {
+  if (!path) return false;
+  return coordinator_.add_way(robot, std::move(*path));
 }
 
 // Puts the group back, one after the other; false as soon as somebody cannot go, or the sum of their arrivals
@@ -202,7 +221,7 @@ bool TeamSearch::replace_group(const std::vector<int>& group, TeamState& state, 
 
 void TeamSearch::improve(TeamState& state, const Deadline& deadline) {
   const int rounds = static_cast<int>(options_.rounds * coordinator_.robots());
-  int detours = sources_.search ? static_cast<int>(options_.improving_paths * coordinator_.robots()) : 0;
+  searches_ = effort_.paths + static_cast<int>(options_.improving_paths * coordinator_.robots());
   for (int round = 0; round < rounds && !deadline.expired(); ++round) {
     const int robot = pick_late(state);
     if (robot < 0) return;
@@ -211,8 +230,7 @@ void TeamSearch::improve(TeamState& state, const Deadline& deadline) {
       others[idx(robot)] = nullptr;
       state[idx(robot)] = side_step(robot, others, state[idx(robot)]);
     }
-    if (detours > 0 && late(robot, state[idx(robot)]->arrival) && rng_.uniform() < 0.5) {
-      --detours;
+    if (effort_.paths < searches_ && late(robot, state[idx(robot)]->arrival) && rng_.uniform() < 0.5) {
       TeamState others = state;
       others[idx(robot)] = nullptr;
       state[idx(robot)] = detour(robot, others, state[idx(robot)], 1);
@@ -251,8 +269,7 @@ std::vector<int> TeamSearch::group_around(int robot, const TeamState& state) {
     if (conflict.robot >= 0 && !coordinator_.fixed(conflict.robot)) group.push_back(conflict.robot);
   }
   const int from = rng_.uniform() < 0.7 ? 1 : 0;
-  for (int i = static_cast<int>(group.size()) - 1; i > from; --i)
-    std::swap(group[idx(i)], group[idx(from + rng_.below(i - from + 1))]);
+  shuffle(group, from);
   return group;
 }
 

@@ -16,15 +16,16 @@ namespace seine::search {
 
 /// How much is tried. All budgets are counts, not seconds, so that the answer does not depend on the machine.
 struct TeamSearchOptions {
-  int passes = 12;              ///< restarts of the priority pass until everybody has a motion
+  int passes = 4;               ///< priority passes, each with its repairs, until everybody has a motion
+  int repairs_each = 12;        ///< rounds of repair for each robot that a pass leaves without a motion
   int detour_tries = 3;         ///< paths asked for when a robot cannot go at all
-  int detour_expansions = 300;  ///< of one such search
+  int detour_expansions = 150;  ///< of one such search
   double late = 1.0;  ///< s, a delay worth a detour, or `late_share` of the time alone when that is longer
   double late_share = 0.2;
-  int late_tries = 0;            ///< paths asked for when a robot is late in a pass
-  int most_ways = 6;             ///< kept for one robot
+  int most_ways = 8;             ///< kept for one robot
   double rounds = 4.0;           ///< neighbourhoods tried for each robot after everybody has a motion
-  double improving_paths = 0.4;  ///< paths asked for in that time, for each robot
+  double rescuing_paths = 3.0;   ///< paths searched for, at most, for each robot until everybody has a motion
+  double improving_paths = 0.2;  ///< paths asked for in that time, for each robot
   int neighbours = 4;            ///< robots taken out together with the late one
   double bump_lengths = 2.1;     ///< radius of the places to avoid, in car lengths
   double bump_weight = 2.5;      ///< what a metre in them costs
@@ -62,12 +63,15 @@ class TeamSearch {
 
  private:
   using Placed = std::shared_ptr<const Placement>;
-  int pass(const std::vector<int>& order, TeamState& state, const Deadline& deadline);
+  void pass(const std::vector<int>& order, TeamState& state, const Deadline& deadline);
   Placed place(int robot, const TeamState& state);
   Placed side_step(int robot, const TeamState& state, Placed best);
   Placed detour(int robot, const TeamState& state, Placed best, int tries);
-  Placed around_the_parked(int robot, const TeamState& state);
-  bool make_room(int robot, TeamState& state);
+  Placed around_the_parked(int robot, const TeamState& state, bool goals);
+  bool may_search(int robot) const;
+  Placed place_somehow(int robot, const TeamState& state);
+  void repair(TeamState& state, const Deadline& deadline);
+  void shuffle(std::vector<int>& list, int from);
   bool add_way(int robot, std::optional<Path> path);
   bool late(int robot, double arrival) const;
   int fastest_way(int robot) const;
@@ -82,6 +86,7 @@ class TeamSearch {
   Precedence precedence_;
   CoordinatorWorkspace workspace_;
   Effort effort_;
+  int searches_ = 0;  // effort_.paths may not grow beyond
 };
 
 /// Σ arrival over the robots that have a motion, s.

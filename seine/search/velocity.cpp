@@ -16,20 +16,6 @@ bool test(const std::uint64_t* bits, int i) {
   return (bits[i / kWordBits] >> (i % kWordBits) & 1) != 0;
 }
 
-// into |= bits << shift over the words [low, high], 0 ≤ shift < 64; `into` has room for one word more.
-void or_shifted(std::uint64_t* into, const std::uint64_t* bits, int shift, int low, int high, int last) {
-  if (shift == 0) {
-    for (int w = low; w <= high; ++w) into[w] |= bits[w];
-    return;
-  }
-  std::uint64_t carry = 0;
-  for (int w = low; w <= high; ++w) {
-    into[w] |= bits[w] << shift | carry;
-    carry = bits[w] >> (kWordBits - shift);
-  }
-  if (high < last) into[high + 1] |= carry;
-}
-
 // A move is tested at its middle: unit + level, except that leaving rest (0, +1) is tested one unit ahead and
 // coming to rest (1, −1) one unit back: units at which a car rests are tested without any slack.
 int middle_of(int level, int change) {
@@ -66,9 +52,9 @@ class Program {
   const VelocityOptions& options_;
   const int levels_, words_;
   const std::size_t stride_;
-  int low_ = 0, high_ = 0;    // words in which anything is alive
+  int low_ = 0, high_ = 0;  // words in which anything is alive
+  bool alive_ = false;
   int last_taken_goal_ = -1;  // tick
-  std::vector<std::uint64_t> moved_;
 };
 
 // States at `layer` to states at `layer + 1`.
@@ -79,32 +65,38 @@ void Program::advance(int layer) {
   for (int k = 0; k <= levels_; ++k) shift_moves(layer, k, middle);
   high_ = std::min(high_ + 1, words_ - 1);
   const std::uint64_t* then = taken(2 * layer + 2);
-  std::uint64_t low_alive = 0, high_alive = 0;
+  std::uint64_t low_alive = 0, high_alive = 0, any = 0;
   for (int k = 0; k <= levels_; ++k) {
     std::uint64_t* row = level(layer + 1, k);
-    for (int w = low_; w <= high_; ++w) row[w] &= ~then[w];
+    for (int w = low_; w <= high_; ++w) any |= row[w] &= ~then[w];
     low_alive |= row[low_];
     high_alive |= row[high_];
   }
+  alive_ = any != 0;
   if (low_alive == 0 && low_ < high_) ++low_;
   if (high_alive == 0 && low_ < high_) --high_;
 }
 
 void Program::shift_moves(int layer, int k, const std::uint64_t* middle) {
   const std::uint64_t* from = level(layer, k);
-  std::uint64_t any = 0;
-  for (int w = low_; w <= high_; ++w) any |= from[w];
-  if (any == 0) return;
+  int low = low_, high = high_;
+  while (low <= high && from[low] == 0) ++low;
+  while (low <= high && from[high] == 0) --high;
+  if (low > high) return;
   for (int j = -1; j <= 1; ++j) {
     if (k + j < 0 || k + j > levels_) continue;
-    const int ahead = middle_of(k, j);
+    const int ahead = middle_of(k, j), shift = 2 * k + j;
     const std::uint64_t* allowed = lattice_.moves(k, j);
-    for (int w = low_; w <= high_; ++w) {
+    std::uint64_t* into = level(layer + 1, k + j);
+    std::uint64_t carry = 0;
+    for (int w = low; w <= high; ++w) {
       std::uint64_t blocked = middle[w] >> ahead;
       if (ahead > 0) blocked |= middle[w + 1] << (kWordBits - ahead);  // rows are padded
-      moved_[idx(w)] = from[w] & allowed[w] & ~blocked;
+      const std::uint64_t moved = from[w] & allowed[w] & ~blocked;
+      into[w] |= moved << shift | carry;
+      carry = shift > 0 ? moved >> (kWordBits - shift) : 0;
     }
-    or_shifted(level(layer + 1, k + j), moved_.data(), 2 * k + j, low_, high_, words_ - 1);
+    if (high + 1 < words_) into[high + 1] |= carry;
   }
 }
 
@@ -128,10 +120,11 @@ VelocityPlan Program::run() {
     if (test(occupied_.row(q), goal)) last_taken_goal_ = q;
   if (last_taken_goal_ == occupied_.ticks() - 1) return plan;  // taken for good
   layers_.assign(idx(first + 1) * stride_, 0);
-  moved_.assign(idx(words_ + 1), 0);
   if (!test(taken(0), 0) && !test(taken(first), 0) && !test(taken(2 * first), 0))
     *level(first, lattice_.start_level()) = 1;
   if (options_.want_reach) plan.reach.assign(idx(2 * first), 0);
+  alive_ = *level(first, lattice_.start_level()) != 0;
+  int front = 0;
   for (int layer = first; 2 * layer <= options_.ticks; ++layer) {
     if (test(level(layer, 0), goal) && stays_free(2 * layer)) {
       plan.found = true;
@@ -140,8 +133,8 @@ VelocityPlan Program::run() {
       plan.arrival = plan.profile.back().t;
       return plan;
     }
-    const int front = furthest(layer);
-    if (front < 0) break;
+    if (!alive_) break;
+    if (options_.want_reach) front = std::max(front, furthest(layer));
     advance(layer);
     if (options_.want_reach) {
       plan.reach.push_back(front);
