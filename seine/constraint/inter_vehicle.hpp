@@ -20,12 +20,43 @@ struct PairGradient {
   geom::Vec2 position_a, direction_a, position_b, direction_b;
 };
 
-/// The letter's signed distance of two convex polygons [Pei24], for rectangles in closed form: the largest separating gap over the four face
-/// normals,
-///   along a face normal e of a:  |δ·e| − h_e − (H_b |e·d_b| + W_b |e·n_b|),   δ = middle of b − middle of a,
-/// and likewise for b. A lower bound of the Euclidean distance, equal to it unless two corners are closest; minus the penetration when
-/// they overlap. The maximum is kept hard: the line search copes with the kink, and nothing has to be taken off the margin.
-inline double inter_vehicle(const OrientedBox& a, const OrientedBox& b, PairGradient& gradient) {
+/// A rectangle's axes and middle in the world.
+struct BoxFrame {
+  geom::Vec2 middle, along, across;
+  double half_length, half_width;
+};
+
+inline BoxFrame frame_of(const OrientedBox& box) {
+  const geom::Vec2 across{-box.direction.y, box.direction.x};
+  return {box.position + box.offset * box.direction, box.direction, across, box.half_length, box.half_width};
+}
+
+/// A corner of one box and its nearest point on the other, when the boxes are apart.
+struct NearestCorner {
+  double squared = 1e300;
+  geom::Vec2 corner;   ///< signs of the corner along and across its own box
+  geom::Vec2 normal;   ///< from the other box to the corner, not normalised
+};
+
+inline NearestCorner nearest_corner(const BoxFrame& owner, const BoxFrame& other) {
+  NearestCorner best;
+  const geom::Vec2 delta = owner.middle - other.middle;
+  const geom::Vec2 l = owner.half_length * owner.along, w = owner.half_width * owner.across;
+  for (const double sl : {-1.0, 1.0})
+    for (const double sw : {-1.0, 1.0}) {
+      const geom::Vec2 p = delta + sl * l + sw * w;
+      const double x = geom::dot(p, other.along), y = geom::dot(p, other.across);
+      const double dx = x > other.half_length ? x - other.half_length : (x < -other.half_length ? x + other.half_length : 0.0);
+      const double dy = y > other.half_width ? y - other.half_width : (y < -other.half_width ? y + other.half_width : 0.0);
+      const double squared = dx * dx + dy * dy;
+      if (squared < best.squared) best = {squared, {sl, sw}, dx * other.along + dy * other.across};
+    }
+  return best;
+}
+
+/// Penetrating boxes: the letter's signed distance of two convex polygons [Pei24], for rectangles in closed form: the largest (least negative)
+/// gap over the four face normals, along a face normal e of a  |δ·e| − h_e − (H_b |e·d_b| + W_b |e·n_b|),  δ = middle of b − middle of a.
+inline double separating_gap(const OrientedBox& a, const OrientedBox& b, PairGradient& gradient) {
   using geom::cross, geom::dot, geom::Vec2;
   const Vec2 da = a.direction, db = b.direction, na{-da.y, da.x}, nb{-db.y, db.x};
   const Vec2 delta = (b.position + b.offset * db) - (a.position + a.offset * da);
@@ -56,6 +87,33 @@ inline double inter_vehicle(const OrientedBox& a, const OrientedBox& b, PairGrad
   gradient.direction_b = b.offset * axis + g_c * da + g_s * Vec2{-da.y, da.x};
   (of_a ? gradient.direction_a : gradient.direction_b) += turn;
   return gap[face];
+}
+
+/// The signed distance of two rectangular footprints: Euclidean when they are apart (a corner of one is nearest to the other), minus the smallest
+/// penetration along a face normal when they overlap. Continuous; kinked where the nearest features change, which the line search copes
+/// with. The separating gap alone would be a lower bound that dips sharply, and between samples unseen, when corners pass each other.
+inline double inter_vehicle(const OrientedBox& a, const OrientedBox& b, PairGradient& gradient) {
+  const double gap = separating_gap(a, b, gradient);
+  if (gap <= 0.0) return gap;
+  const BoxFrame fa = frame_of(a), fb = frame_of(b);
+  const NearestCorner of_a = nearest_corner(fa, fb), of_b = nearest_corner(fb, fa);
+  const bool corner_of_a = of_a.squared < of_b.squared;
+  const NearestCorner& nearest = corner_of_a ? of_a : of_b;
+  const double distance = std::sqrt(nearest.squared);
+  // Unit from b to a, and the two witnesses relative to the cars' reference points; both ride with their cars (envelope theorem).
+  const geom::Vec2 normal = ((corner_of_a ? 1.0 : -1.0) / distance) * nearest.normal;
+  const BoxFrame& owner = corner_of_a ? fa : fb;
+  const geom::Vec2 corner = owner.middle + nearest.corner.x * owner.half_length * owner.along +
+                            nearest.corner.y * owner.half_width * owner.across;
+  const geom::Vec2 foot = corner - nearest.normal;
+  const geom::Vec2 arm_a = (corner_of_a ? corner : foot) - a.position, arm_b = (corner_of_a ? foot : corner) - b.position;
+  // ∂/∂d of n·(R(d) c), c the arm in the body frame.
+  const auto turn = [](geom::Vec2 n, geom::Vec2 arm, geom::Vec2 d) {
+    const geom::Vec2 c{geom::dot(d, arm), geom::cross(d, arm)};
+    return geom::Vec2{c.x * n.x + c.y * n.y, c.x * n.y - c.y * n.x};
+  };
+  gradient = {normal, turn(normal, arm_a, a.direction), -normal, turn(-normal, arm_b, b.direction)};
+  return distance;
 }
 
 }  // namespace seine::constraint

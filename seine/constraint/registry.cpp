@@ -82,9 +82,14 @@ double regularity_entry(std::span<const double> x, std::span<double> g) {
 }
 
 double inter_vehicle_entry(std::span<const double> x, std::span<double> g) {
+  // The distance is of a rigid motion: only unit directions are meant, so the inputs are angles.
+  const Vec2 da = geom::unit(x[2]), db = geom::unit(x[5]);
   PairGradient d;
-  const double value = inter_vehicle({{x[0], x[1]}, {x[2], x[3]}, 0.2, 0.5, 0.3}, {{x[4], x[5]}, {x[6], x[7]}, -0.1, 0.7, 0.2}, d);
-  put(g, {d.position_a, d.direction_a, d.position_b, d.direction_b});
+  const double value = inter_vehicle({{x[0], x[1]}, da, 0.2, 0.5, 0.3}, {{x[3], x[4]}, db, -0.1, 0.7, 0.2}, d);
+  put(g, {d.position_a});
+  g[2] = geom::cross(da, d.direction_a);
+  g[3] = d.position_b.x, g[4] = d.position_b.y;
+  g[5] = geom::cross(db, d.direction_b);
   return value;
 }
 
@@ -110,7 +115,7 @@ double moving_obstacle_entry(std::span<const double> x, std::span<double> g) {
 std::vector<Entry> registry() {
   return {{"corridor", 4, corridor_entry, draw_pair},
           {"curvature", 4, curvature_entry, draw_curve},
-          {"inter_vehicle", 8, inter_vehicle_entry, draw_pair},
+          {"inter_vehicle", 6, inter_vehicle_entry, draw_any},
           scalar("lateral_acceleration", lateral_acceleration),
           {"moving_obstacle", 6, moving_obstacle_entry, draw_any},
           scalar("progress", progress),

@@ -5,9 +5,13 @@
 namespace seine::trajopt {
 namespace {
 
-// Near pairs are found anew after this many iterations; within it nobody moves further than the skin.
+// Near pairs are found anew after so many iterations, and at every power of two before, while the steps are large.
 constexpr int kRefreshEvery = 16;
-constexpr double kSkin = 0.6;  // car lengths
+// Car lengths beyond the clearance within which a pair is watched at coarse and at all ticks: what two cars can close in between two coarse
+// ticks, and what an iterate moves until the next refresh.
+constexpr double kSkin = 1.0, kClose = 0.5;
+// Longest change of any variable (car lengths, logarithms, radians) in one iteration: longer ones are never useful.
+constexpr double kMaxStep = 1.0;
 
 std::vector<Shape> shapes_of(const Task& task, const Units& units) {
   std::vector<Shape> shapes;
@@ -32,9 +36,9 @@ std::vector<double> scaled(std::vector<double> values, double factor) {
 
 }  // namespace
 
-Units units_of(const Task& task) {
+Units units_of(std::span<const RobotTask> robots) {
   std::vector<std::pair<double, double>> sizes;
-  for (const RobotTask& robot : task.robots) {
+  for (const RobotTask& robot : robots) {
     const double length = robot.model.length();
     sizes.emplace_back(length, length / robot.model.limits.speed);
   }
@@ -44,7 +48,7 @@ Units units_of(const Task& task) {
 }
 
 JointProblem::JointProblem(const Task& task, const Settings& settings, Workers& workers)
-    : settings_(settings), workers_(workers), units_(units_of(task)), offsets_{0},
+    : settings_(settings), workers_(workers), units_(task.units), offsets_{0},
       proximity_(shapes_of(task, units_), scaled_bodies(task, units_, settings.clearance_slack),
                  scaled(task.pair_extra, 1.0 / units_.length), task.robot_clearance / units_.length + settings.clearance_slack,
                  task.ticks),
@@ -73,10 +77,10 @@ void JointProblem::load(std::span<const double> x) {
 void JointProblem::refresh(std::span<const double> x) {
   load(x);
   workers_.run(static_cast<int>(robots_.size()), [&](int k) {
-    for (int tick = 0; tick < ticks_; ++tick)
+    for (int tick = 0; tick < ticks_; tick += Proximity::kStride)
       robots_[static_cast<std::size_t>(k)].locate(tick * tick_, states_[static_cast<std::size_t>(k * ticks_ + tick)]);
   });
-  proximity_.rebuild(states_, kSkin);
+  proximity_.rebuild(states_, kSkin, kClose);
 }
 
 double JointProblem::evaluate(std::span<const double> x, std::span<double> gradient, double knee) {
@@ -113,11 +117,12 @@ SolveSummary JointProblem::solve(std::span<double> x, const Deadline& deadline, 
     refresh(x);
     optim::LbfgsOptions options;
     options.memory = settings_.memory;
+    options.max_step = kMaxStep;
     options.max_evaluations = evaluations;
     options.decrease_tolerance = decrease;
     options.blocks.assign(offsets_.begin(), offsets_.end() - 1);
     options.stop = [&](int iteration, double) {
-      if (iteration % kRefreshEvery == 0) refresh(x);
+      if (iteration % kRefreshEvery == 0 || (iteration & (iteration - 1)) == 0) refresh(x);
       return deadline.expired();
     };
     const optim::LbfgsSummary result = optim::minimize(

@@ -20,10 +20,11 @@ struct Task {
   std::vector<double> pair_extra;        ///< m, robots × robots, added to a pair's clearance; may be empty
   double tick = 0.05;                    ///< s, spacing of the common clock's samples
   int ticks = 1;                         ///< the clock ends when everything has come to rest
+  Units units;                           ///< see units_of; the same for every subset of a team, so that variables can be carried over
 };
 
-/// The units a task is made dimensionless with: the median car length, and the time to drive it at that car's top speed.
-Units units_of(const Task& task);
+/// The units to make a team dimensionless with: the median car length, and the time to drive it at that car's top speed.
+Units units_of(std::span<const RobotTask> robots);
 
 struct SolveSummary {
   int soft_evaluations = 0, stiff_evaluations = 0;
@@ -38,6 +39,8 @@ class JointProblem {
 
   int variables() const { return offsets_.back(); }
   std::vector<double> initial() const;
+  /// Where each robot's variables begin; one more entry for the end.
+  const std::vector<int>& offsets() const { return offsets_; }
   /// J and its gradient with the present lists of near pairs.
   double evaluate(std::span<const double> x, std::span<double> gradient, double knee);
   /// Finds again who is near whom.

@@ -39,6 +39,9 @@ struct Basis {
     }
   }
 };
+// Moving against the gear is never a little wrong: it weighs more than a limit exceeded by the same share.
+constexpr double kProgress = 5.0;
+
 constexpr Basis<kCurveLanes> kCurve;
 constexpr Basis<kTimeLanes> kTime;
 
@@ -136,8 +139,9 @@ double time_piece(const double* cu, double* gcu, int stride, const CurveView& cu
       u2 += c[k] * kTime.value[2][k][j];
     }
     u1 *= rate, u2 *= rate2;
-    double floor = u < 0.0 ? 0.0 : u;
-    floor = floor > last ? last : floor;
+    // Written so that a NaN from a wild trial step lands on piece 0 rather than anywhere.
+    double floor = u > 0.0 ? u : 0.0;
+    floor = floor < last ? floor : last;
     const int piece = static_cast<int>(floor);
     const double w = u - piece;
     const double *x = curve.cx + piece, *y = curve.cy + piece;
@@ -155,8 +159,8 @@ double time_piece(const double* cu, double* gcu, int stride, const CurveView& cu
     double d_speed, d_back, d_tangential, d_lateral, slope;
     double lane_cost = math::hinge(constraint::speed(q.speed, weights.speed, d_speed), weights.knee, slope);
     double g_speed = slope * d_speed;
-    lane_cost += math::hinge(constraint::progress(q.speed, weights.speed, d_back), weights.knee, slope);
-    g_speed += slope * d_back;
+    lane_cost += kProgress * math::hinge(constraint::progress(q.speed, weights.speed, d_back), weights.knee, slope);
+    g_speed += kProgress * slope * d_back;
     lane_cost += math::hinge(constraint::tangential_acceleration(q.tangential, weights.acceleration, d_tangential),
                              weights.knee, slope);
     const double g_tangential = slope * d_tangential;

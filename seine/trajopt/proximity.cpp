@@ -39,39 +39,52 @@ double Proximity::clearance_of(int a, int b) const {
   return clearance_ + (pair_extra_.empty() ? 0.0 : pair_extra_[index]);
 }
 
-void Proximity::rebuild(std::span<const ClockState> states, double skin) {
-  for (auto& list : needed_) list.clear();
-  const auto cars = static_cast<int>(shapes_.size());
+// Distance beyond the wanted clearance, roughly and from below.
+double Proximity::gap(const Near& near, int tick, std::span<const ClockState> states) const {
   const auto index = [](auto i) { return static_cast<std::size_t>(i); };
-  std::vector<Vec2> middle(shapes_.size());
-  std::vector<char> needed(shapes_.size());
-  for (int tick = 0; tick < ticks_; ++tick) {
-    auto& list = near_[index(tick)];
-    list.clear();
-    std::fill(needed.begin(), needed.end(), 0);
-    for (int a = 0; a < cars; ++a) {
-      const ClockState& s = states[index(a * ticks_ + tick)];
-      middle[index(a)] = s.position + shapes_[index(a)].offset * s.direction;
-    }
-    for (int a = 0; a < cars; ++a) {
-      for (int b = a + 1; b < cars; ++b) {
-        const double reach = shapes_[index(a)].reach + shapes_[index(b)].reach + clearance_of(a, b) + skin;
-        if (geom::squared_norm(middle[index(a)] - middle[index(b)]) > reach * reach) continue;
-        list.push_back({a, b});
-        needed[index(a)] = needed[index(b)] = 1;
-      }
-      for (std::size_t k = 0; k < bodies_.size(); ++k) {
-        const Body& body = bodies_[k];
-        const std::span<const Vec2> polygon(&body.polygons[index(tick) * index(body.vertices)], index(body.vertices));
-        const geom::Box box = geom::bounding_box(polygon).inflated(body.radius + body.clearance + skin + shapes_[index(a)].reach);
-        if (!box.contains(middle[index(a)])) continue;
-        list.push_back({a, -1 - static_cast<int>(k)});
-        needed[index(a)] = 1;
-      }
-    }
-    for (int a = 0; a < cars; ++a)
-      if (needed[index(a)]) needed_[index(a)].push_back(tick);
+  const Shape& shape_a = shapes_[index(near.a)];
+  const ClockState& a = states[index(near.a * ticks_ + tick)];
+  const Vec2 middle_a = a.position + shape_a.offset * a.direction;
+  if (near.b < 0) {
+    const Body& body = bodies_[index(-1 - near.b)];
+    const std::span<const Vec2> polygon(&body.polygons[index(tick) * index(body.vertices)], index(body.vertices));
+    const geom::Box box = geom::bounding_box(polygon);
+    const Vec2 low = box.low - middle_a, high = middle_a - box.high;
+    const double outside = std::max({low.x, low.y, high.x, high.y});
+    return outside - shape_a.reach - body.radius - body.clearance;
   }
+  const Shape& shape_b = shapes_[index(near.b)];
+  const ClockState& b = states[index(near.b * ticks_ + tick)];
+  const double apart = geom::norm(b.position + shape_b.offset * b.direction - middle_a);
+  return apart - shape_a.reach - shape_b.reach - clearance_of(near.a, near.b);
+}
+
+void Proximity::watch(const Near& near, int coarse, bool closely) {
+  const int from = closely ? std::max(0, coarse - kStride / 2 + 1) : coarse;
+  const int to = closely ? std::min(ticks_ - 1, coarse + kStride / 2) : coarse;
+  for (int tick = from; tick <= to; ++tick) near_[static_cast<std::size_t>(tick)].push_back(near);
+}
+
+void Proximity::rebuild(std::span<const ClockState> states, double skin, double close) {
+  for (auto& list : near_) list.clear();
+  const auto cars = static_cast<int>(shapes_.size()), bodies = static_cast<int>(bodies_.size());
+  for (int tick = 0; tick < ticks_; tick += kStride)
+    for (int a = 0; a < cars; ++a) {
+      const auto consider = [&](int b) {
+        const double g = gap({a, b}, tick, states);
+        if (g < skin) watch({a, b}, tick, g < close);
+      };
+      for (int b = a + 1; b < cars; ++b) consider(b);
+      for (int k = 0; k < bodies; ++k) consider(-1 - k);
+    }
+  for (auto& list : needed_) list.clear();
+  for (int tick = 0; tick < ticks_; ++tick)
+    for (const Near& near : near_[static_cast<std::size_t>(tick)])
+      for (const int car : {near.a, near.b}) {
+        if (car < 0) continue;
+        auto& list = needed_[static_cast<std::size_t>(car)];
+        if (list.empty() || list.back() != tick) list.push_back(tick);
+      }
 }
 
 double Proximity::evaluate(int chunk, std::span<ClockState> states, double weight, double knee) const {

@@ -27,7 +27,8 @@ struct Shape {
 };
 Shape shape_of(std::span<const geom::Vec2> footprint, double unit_length);
 
-/// Distances between cars, and between cars and bodies, at the ticks of the common clock; only where they are near. Partitioned by ticks, so that
+/// Distances between cars, and between cars and bodies, at the ticks of the common clock; only where they are near: at every tick where they
+/// are close, at every kStride-th where they might soon be. Partitioned by ticks, so that
 /// threads never write to the same place and sums do not depend on their number.
 class Proximity {
  public:
@@ -38,8 +39,11 @@ class Proximity {
 
   Proximity(std::vector<Shape> shapes, std::vector<Body> bodies, std::vector<double> pair_extra, double clearance, int ticks);
 
-  /// Finds who is near whom at which tick, with `skin` to spare. @param states cars × ticks
-  void rebuild(std::span<const ClockState> states, double skin);
+  /// Every kStride-th tick is a coarse one: who is near whom is judged there.
+  static constexpr int kStride = 4;
+  /// Finds who is near whom. @param states cars × ticks, of which the coarse ones are read  @param skin how far a pair may be apart beyond its
+  /// clearance to be watched at coarse ticks; within `close` it is watched at every tick
+  void rebuild(std::span<const ClockState> states, double skin, double close);
   /// Ticks at which a car is near anything, ascending.
   const std::vector<int>& ticks_of(int car) const { return needed_[static_cast<std::size_t>(car)]; }
 
@@ -50,6 +54,8 @@ class Proximity {
  private:
   double one(const Near& near, int tick, std::span<ClockState> states, double weight, double knee) const;
   double clearance_of(int a, int b) const;
+  double gap(const Near& near, int tick, std::span<const ClockState> states) const;
+  void watch(const Near& near, int coarse, bool closely);
 
   std::vector<Shape> shapes_;
   std::vector<Body> bodies_;

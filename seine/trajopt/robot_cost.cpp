@@ -89,7 +89,7 @@ double RobotProblem::steering_cost(const Segment& s, double knee, double& g_h) {
       const auto tp = static_cast<std::size_t>(s.time_begin + j);
       double u = 0.0, du = 0.0;
       for (int k = 5; k >= 0; --k) du = u + wt * du, u = cu_[static_cast<std::size_t>(k * time_pieces_) + tp] + wt * u;
-      const int piece = std::clamp(static_cast<int>(u), 0, s.pieces - 1);
+      const int piece = u > 0.0 ? static_cast<int>(std::min(u, s.pieces - 1.0)) : 0;
       const double w = u - piece;
       double d[2][5] = {};  // value and four derivatives of x and y
       for (int axis = 0; axis < 2; ++axis)

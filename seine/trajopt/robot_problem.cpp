@@ -198,14 +198,16 @@ void RobotProblem::locate(double t, ClockState& state) const {
     --index;
   }
   const Segment& s = segments_[index];
-  const double rho = std::clamp((t - s.start) / s.h, 0.0, static_cast<double>(s.time_pieces));
+  // Both clamps also send a NaN from a wild trial step to the first piece.
+  const auto inside = [](double value, double last) { return value > 0.0 ? std::min(value, last) : 0.0; };
+  const double rho = inside((t - s.start) / s.h, s.time_pieces);
   const int tp = std::min(static_cast<int>(rho), s.time_pieces - 1);
   const double wt = rho - tp;
   const double* cu = cu_.data() + s.time_begin + tp;
   const int ts = time_pieces_;
   const double u = cu[0] + wt * (cu[ts] + wt * (cu[2 * ts] + wt * (cu[3 * ts] + wt * (cu[4 * ts] + wt * cu[5 * ts]))));
   const double du = cu[ts] + wt * (2 * cu[2 * ts] + wt * (3 * cu[3 * ts] + wt * (4 * cu[4 * ts] + wt * 5 * cu[5 * ts])));
-  const int piece = std::clamp(static_cast<int>(u), 0, s.pieces - 1);
+  const int piece = static_cast<int>(inside(u, s.pieces - 1));
   const double w = u - piece;
   const auto derivatives = [&](const double* c, double& p, double& d1, double& d2) {
     const int n = pieces_;

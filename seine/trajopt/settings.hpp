@@ -10,14 +10,14 @@ struct Settings {
   double curve_smoothness = 0.02;  ///< of ∫ |p'''|² du / l²
   double regularity = 0.1;         ///< of the mean of (|p'|²/l² − 1)²
   /// Penalty on the mean violation of each kind, per unit of guessed travel time: it must exceed the multipliers, which scale like it.
-  double penalty = 20.0;
+  double penalty = 60.0;
   double pair_penalty = 1.0;       ///< factor on the penalty for distances to other cars and moving obstacles
   double soft_knee = 0.3, stiff_knee = 0.03;                    ///< of the hinge, first and second stage
   double soft_decrease = 1e-4, stiff_decrease = 1e-4;           ///< relative decrease that ends a stage
   int soft_evaluations = 300, stiff_evaluations = 700;          ///< at most
   int memory = 16;
   double tighten = 0.01;           ///< limits are kept to (1 − this), so that what happens between samples stays inside
-  double clearance_slack = 0.01;   ///< car lengths added to every clearance, for the same reason
+  double clearance_slack = 0.015;  ///< car lengths added to every clearance, for the same reason
 };
 
 }  // namespace seine::trajopt

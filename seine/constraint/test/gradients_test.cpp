@@ -3,7 +3,10 @@
 #include <filesystem>
 #include <set>
 
+#include "seine/constraint/inter_vehicle.hpp"
 #include "seine/constraint/registry.hpp"
+#include "seine/geom/convex.hpp"
+#include "seine/geom/pose2.hpp"
 #include "seine/math/finite_difference.hpp"
 
 namespace seine::constraint {
@@ -45,6 +48,21 @@ TEST(Gradients, TheCheckItselfSeesAPlantedError) {
       const auto f = [&](std::span<const double> y) { return entry.value(y, unused); };
       EXPECT_GT(math::check_gradient(f, x, g).worst, 1e-5) << entry.name;
     }
+}
+
+TEST(InterVehicle, IsTheExactDistanceOfRectangles) {
+  Rng rng(kSeed);
+  for (int i = 0; i < 5000; ++i) {
+    const auto rectangle = [](double rear, double front, double half) {
+      return std::vector<geom::Vec2>{{rear, -half}, {front, -half}, {front, half}, {rear, half}};
+    };
+    const geom::Pose2 a{rng.uniform(-1.5, 1.5), rng.uniform(-1.5, 1.5), rng.uniform(-3, 3)};
+    const geom::Pose2 b{rng.uniform(-1.5, 1.5), rng.uniform(-1.5, 1.5), rng.uniform(-3, 3)};
+    PairGradient unused;
+    const double value = inter_vehicle({a.position(), a.direction(), 0.2, 0.5, 0.3}, {b.position(), b.direction(), -0.1, 0.7, 0.2}, unused);
+    const geom::Convex shape_a = geom::placed({rectangle(-0.3, 0.7, 0.3), 0.0}, a), shape_b = geom::placed({rectangle(-0.8, 0.6, 0.2), 0.0}, b);
+    EXPECT_NEAR(value, geom::separation(shape_a, shape_b).distance, 1e-9) << "seed " << kSeed << ", case " << i;
+  }
 }
 
 TEST(Gradients, NoConstraintIsForgotten) {

@@ -68,6 +68,7 @@ Task busy_task(std::uint64_t seed, bool rectangles) {
   for (int tick = 0; tick < task.ticks; ++tick)
     for (const Vec2 v : {Vec2{0.0, 0.0}, Vec2{0.5, 0.1}, Vec2{0.1, 0.5}}) body.polygons.push_back(v + Vec2{0.3, 0.01 * tick});
   task.bodies.push_back(std::move(body));
+  task.units = units_of(task.robots);
   return task;
 }
 

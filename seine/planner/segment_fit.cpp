@@ -1,0 +1,149 @@
+#include "seine/planner/segment_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "seine/traj/minco.hpp"
+#include "seine/trajopt/kernels.hpp"
+
+namespace seine::planner {
+namespace {
+
+using search::Path;
+using search::PathPoint;
+using search::ProfileKnot;
+using search::TimedPath;
+
+// A stretch between two rests: where it lies on the path, when it is driven.
+struct Stretch {
+  int gear;
+  double from, to;    // m along the path
+  double begin, end;  // s on the clock
+};
+
+// Speeds below this share of the top speed count as standing.
+constexpr double kStanding = 1e-6;
+
+// Lengths at which the gear changes.
+std::vector<std::pair<double, int>> gear_changes(const Path& path) {
+  std::vector<std::pair<double, int>> changes{{0.0, path.points.front().gear}};
+  for (std::size_t i = 1; i < path.points.size(); ++i)
+    if (path.points[i].gear != changes.back().second && i + 1 < path.points.size())
+      changes.emplace_back(path.points[i].s, path.points[i].gear);
+  return changes;
+}
+
+// The profile's rests: length, when the car stops there, when it leaves.
+struct Stop {
+  double s, arrive, leave;
+};
+
+std::vector<Stop> stops_of(const TimedPath& guess, double v_max) {
+  std::vector<Stop> stops;
+  for (const ProfileKnot& knot : guess.profile) {
+    if (knot.v > kStanding * v_max) continue;
+    if (!stops.empty() && knot.s - stops.back().s < 1e-9 * (1.0 + knot.s))
+      stops.back().leave = knot.t;
+    else
+      stops.push_back({knot.s, knot.t, knot.t});
+  }
+  return stops;
+}
+
+std::vector<Stretch> stretches_of(const TimedPath& guess, const vehicle::Model& model, double shortest_wait) {
+  const auto gears = gear_changes(guess.path);
+  const std::vector<Stop> stops = stops_of(guess, model.limits.speed);
+  const double length = guess.path.length(), apart = 0.5 * model.length();
+  const auto gear_at = [&](double s) {
+    int gear = gears.front().second;
+    for (const auto& [from, value] : gears)
+      if (s >= from - 1e-9) gear = value;
+    return gear;
+  };
+  std::vector<Stretch> stretches;
+  double from = 0.0, begin = 0.0;
+  for (const Stop& stop : stops) {
+    if (stop.s < 1e-9) {
+      begin = stop.leave;
+      continue;
+    }
+    const bool end = stop.s > length - 1e-6;
+    bool change = false;
+    for (const auto& [s, gear] : gears) change = change || (s > 0.0 && std::abs(s - stop.s) < 1e-6);
+    const bool wait = stop.leave - stop.arrive >= shortest_wait && stop.s - from > apart && length - stop.s > apart;
+    if (!end && !change && !wait) continue;
+    stretches.push_back({gear_at(0.5 * (from + stop.s)), from, stop.s, begin, stop.arrive});
+    from = stop.s, begin = stop.leave;
+    if (end) break;
+  }
+  return stretches;
+}
+
+double curvature_at(const Path& path, double s) {
+  const auto next = std::upper_bound(path.points.begin(), path.points.end(), s,
+                                     [](double value, const PathPoint& point) { return value < point.s; });
+  return next == path.points.begin() ? path.points.front().curvature : std::prev(next)->curvature;
+}
+
+trajopt::SegmentGuess fit_stretch(const TimedPath& guess, const Stretch& stretch, const vehicle::Model& model,
+                                  const FitOptions& options, double wait) {
+  trajopt::SegmentGuess segment;
+  const double length = stretch.to - stretch.from, t_a = model.limits.speed / model.limits.acceleration;
+  segment.gear = stretch.gear;
+  segment.wait = wait;
+  segment.duration = std::max(stretch.end - stretch.begin, 1e-3);
+  segment.length = length;
+  const auto pieces_for = [](double ratio, int least) {
+    return std::clamp(static_cast<int>(std::lround(ratio)), least, traj::UniformMinco::kMaxPieces);
+  };
+  const int pieces = pieces_for(length / (options.piece_length * model.length()), 3);
+  const int times = pieces_for(segment.duration / (options.piece_duration * t_a), 4);
+  for (int j = 0; j <= pieces; ++j)
+    segment.points.push_back(search::pose_at(guess.path, stretch.from + length * j / pieces).position());
+  for (int j = 0; j <= times; ++j) {
+    const double t = stretch.begin + segment.duration * j / times;
+    segment.progress.push_back(std::clamp(guess.at(t).s - stretch.from, 0.0, length));
+  }
+  segment.progress.back() = length;
+  segment.start_heading = search::pose_at(guess.path, stretch.from).heading;
+  segment.end_heading = search::pose_at(guess.path, stretch.to).heading;
+  // Arcs jump in curvature; the spline's end curvature is free, and half way is a good place to begin.
+  const double inside = 1e-3 * length;
+  segment.start_curvature = 0.5 * curvature_at(guess.path, stretch.from + inside);
+  segment.end_curvature = 0.5 * curvature_at(guess.path, stretch.to - inside);
+  segment.start_acceleration = segment.end_deceleration = 0.7 * model.limits.acceleration;
+  return segment;
+}
+
+}  // namespace
+
+void set_corridor(trajopt::RobotTask& task, std::span<const geom::Pose2> poses, const world::Scenario& scenario,
+                  const world::StaticMap& map, const FitOptions& options) {
+  const double length = task.model.length();
+  task.corridor = corridor::build(poses, task.model, map,
+                                  {.reach = options.corridor_reach * length,
+                                   .clearance = scenario.margins.obstacle + options.corridor_slack * length});
+}
+
+trajopt::RobotTask fit(const TimedPath& guess, const world::Scenario& scenario, const world::Robot& robot,
+                       const world::StaticMap& map, const FitOptions& options) {
+  trajopt::RobotTask task;
+  task.model = scenario.model_of(robot);
+  task.start = robot.start;
+  task.start_speed = robot.start_speed;
+  task.goal = robot.goal;
+  const double t_a = task.model.limits.speed / task.model.limits.acceleration;
+  double end = 0.0;
+  std::vector<geom::Pose2> poses;
+  for (const Stretch& stretch : stretches_of(guess, task.model, options.shortest_wait * t_a)) {
+    task.segments.push_back(fit_stretch(guess, stretch, task.model, options, stretch.begin - end));
+    end = stretch.end;
+    const int samples = task.segments.back().pieces() * trajopt::kCurveLanes;
+    for (int k = 0; k < samples; ++k)
+      poses.push_back(search::pose_at(guess.path, stretch.from + (stretch.to - stretch.from) * k / samples));
+  }
+  set_corridor(task, poses, scenario, map, options);
+  return task;
+}
+
+}  // namespace seine::planner
