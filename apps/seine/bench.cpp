@@ -13,7 +13,6 @@
 #include "apps/seine/bench_rows.hpp"
 #include "apps/seine/bench_table.hpp"
 #include "apps/seine/command.hpp"
-#include "apps/seine/interrupt.hpp"
 #include "apps/seine/progress_line.hpp"
 #include "seine/base/deadline.hpp"
 #include "seine/base/error.hpp"
@@ -57,6 +56,7 @@ struct Instance {
 
 void add_files(const std::string& path, std::vector<Instance>& instances) {
   std::vector<fs::path> files;
+  if (!fs::exists(path)) throw InputError(path + ": no such file or folder");
   if (fs::is_directory(path)) {
     for (const auto& entry : fs::directory_iterator(path)) {
       const std::string extension = entry.path().extension().string();
@@ -172,7 +172,6 @@ int run(const Arguments& arguments) {
                                      std::to_string(arguments.threads) + (arguments.alone ? " alone" : ""));
   ProgressLine line;
   for (std::size_t i = 0; i < instances.size(); ++i) {
-    if (interrupted()) throw Interrupted();
     line.update(instances[i].group + " " + instances[i].name,
                 static_cast<double>(i) / static_cast<double>(instances.size()));
     if (!file.has(instances[i].group, instances[i].name)) file.append(measure(instances[i], arguments));

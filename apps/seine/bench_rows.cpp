@@ -111,7 +111,8 @@ void RowFile::read(const std::string& path, const std::string& settings) {
                         "was made with '" + first.substr(std::min<std::size_t>(2, first.size())) +
                             "', not '" + settings + "': remove it or give another name with -o");
   }
-  for (std::string line; std::getline(in, line);) {
+  for (std::string line;
+       std::getline(in, line) && !in.eof();) {  // a line without an end was cut off by an interrupt
     rows_.push_back(parse_row(fields_of(names), line));
     known_.insert({rows_.back().group, rows_.back().instance});
   }

@@ -6,7 +6,6 @@
 #include <string>
 
 #include "apps/seine/command.hpp"
-#include "apps/seine/interrupt.hpp"
 #include "apps/seine/summary.hpp"
 #include "seine/base/deadline.hpp"
 #include "seine/io/plan_file.hpp"
@@ -36,9 +35,7 @@ int run(const Arguments& arguments, bool json) {
   io::expect_same_team(scenario, plan, arguments.plan);
   const world::StaticMap map(scenario);
   const certify::Certificate certificate = certify::certify(
-      scenario, map, plan.plan,
-      {.threads = arguments.threads, .deadline = Deadline(arguments.deadline, &interrupted())});
-  if (interrupted()) throw Interrupted();
+      scenario, map, plan.plan, {.threads = arguments.threads, .deadline = Deadline(arguments.deadline)});
   std::cout << (json ? io::report_json(scenario, certificate) : summary(scenario, certificate));
   return certificate.holds ? kDone : kNo;
 }

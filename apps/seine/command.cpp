@@ -30,6 +30,10 @@ void add_threads(CLI::App& command, int& threads) {
       ->capture_default_str();
 }
 
+void add_seed(CLI::App& command, std::uint64_t& seed, const std::string& meaning) {
+  command.add_option("--seed", seed, meaning)->check(CLI::NonNegativeNumber)->capture_default_str();
+}
+
 void add_json(CLI::App& command, Invocation& invocation) {
   command.add_flag("--json", invocation.json, "answer with one JSON object on stdout");
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <functional>
 #include <string>
 
@@ -32,6 +33,8 @@ void add_bench(CLI::App& program, Invocation& invocation);
 CLI::Option* add_scenario(CLI::App& command, std::string& path);
 /// `--threads`, 0 for as many as the machine has.
 void add_threads(CLI::App& command, int& threads);
+/// `--seed`, 0 … 2^64 − 1.
+void add_seed(CLI::App& command, std::uint64_t& seed, const std::string& meaning);
 /// `--json`.
 void add_json(CLI::App& command, Invocation& invocation);
 /// Accepts finite numbers above zero, as text.

@@ -73,7 +73,7 @@ void add_generate(CLI::App& program, Invocation& invocation) {
   const auto arguments = std::make_shared<Arguments>();
   command.add_option("FAMILY", arguments->family, "random, swap, corridor, parking or map")->required();
   command.add_option("--robots", arguments->robots, "how many cars")->capture_default_str();
-  command.add_option("--seed", arguments->seed, "which of the instances")->capture_default_str();
+  add_seed(command, arguments->seed, "which of the instances");
   command.add_option("--obstacles", arguments->obstacles, "how many, for random only (default: 1 per 20 m2)")
       ->check(CLI::Range(0, std::numeric_limits<int>::max()));
   command.add_option("--map", arguments->map, "the map for the family map");

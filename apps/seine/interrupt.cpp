@@ -1,27 +1,31 @@
 #include "apps/seine/interrupt.hpp"
 
+#include <unistd.h>
+
 #include <csignal>
+#include <string_view>
+
+#include "apps/seine/command.hpp"
 
 namespace seine::app {
 namespace {
 
-std::atomic<bool> flag{false};
-static_assert(std::atomic<bool>::is_always_lock_free, "set from a signal handler");
+volatile std::sig_atomic_t terminal = 0;
 
-extern "C" void on_signal(int number) {
-  flag.store(true, std::memory_order_relaxed);
-  std::signal(number, SIG_DFL);
+// Only what a signal handler may call: write and _exit.
+extern "C" void leave(int) {
+  constexpr std::string_view kClear = "\r\033[K", kMessage = "seine: interrupted\n";
+  if (terminal != 0) static_cast<void>(!::write(STDERR_FILENO, kClear.data(), kClear.size()));
+  static_cast<void>(!::write(STDERR_FILENO, kMessage.data(), kMessage.size()));
+  ::_exit(kNo);
 }
 
 }  // namespace
 
-const std::atomic<bool>& interrupted() {
-  return flag;
-}
-
-void catch_interrupts() {
-  std::signal(SIGINT, on_signal);
-  std::signal(SIGTERM, on_signal);
+void end_on_interrupt() {
+  terminal = ::isatty(STDERR_FILENO);
+  std::signal(SIGINT, leave);
+  std::signal(SIGTERM, leave);
 }
 
 }  // namespace seine::app

@@ -1,19 +1,10 @@
 #pragma once
 
-#include <atomic>
-#include <exception>
-
 namespace seine::app {
 
-/// True once the user pressed Ctrl-C (or the program was asked to terminate). The first time asks politely;
-/// the second kills.
-const std::atomic<bool>& interrupted();
-void catch_interrupts();
-
-/// Thrown out of a computation that was interrupted.
-class Interrupted : public std::exception {
- public:
-  const char* what() const noexcept override { return "interrupted"; }
-};
+/// From now on Ctrl-C (or a request to terminate) ends the program at once with one line on stderr and the
+/// exit status "no". Nothing is left half done: files are written in one go under another name, result lines
+/// are flushed one by one.
+void end_on_interrupt();
 
 }  // namespace seine::app

@@ -35,8 +35,6 @@ int fail(const Invocation& invocation, std::string message, int status) {
 int run(const Invocation& invocation) {
   try {
     return invocation.run();
-  } catch (const seine::app::Interrupted&) {
-    return fail(invocation, "interrupted", seine::app::kNo);
   } catch (const seine::InputError& error) {
     return fail(invocation, error.what(), seine::app::kWrong);
   } catch (const std::bad_alloc&) {
@@ -70,6 +68,6 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return fail(invocation, error.what() + std::string(" (try --help)"), seine::app::kWrong);
   }
-  seine::app::catch_interrupts();
+  seine::app::end_on_interrupt();
   return run(invocation);
 }

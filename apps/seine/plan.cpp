@@ -6,7 +6,6 @@
 #include <string>
 
 #include "apps/seine/command.hpp"
-#include "apps/seine/interrupt.hpp"
 #include "apps/seine/progress_line.hpp"
 #include "apps/seine/summary.hpp"
 #include "seine/io/plan_file.hpp"
@@ -41,7 +40,6 @@ int run(const Arguments& arguments, bool json) {
   planner::Options options{
       .deadline_s = arguments.deadline, .threads = arguments.threads, .seed = arguments.seed, .progress = {}};
   options.progress = [&line](const planner::Progress& progress) {
-    if (interrupted()) throw Interrupted();
     line.update(progress.stage, progress.fraction);
   };
   const planner::PlanResult result = planner::plan(scenario, options);
@@ -72,7 +70,7 @@ void add_plan(CLI::App& program, Invocation& invocation) {
       .add_option("--deadline", arguments->deadline, "seconds of wall time; the best certified plan by then")
       ->check(kPositive);
   add_threads(command, arguments->threads);
-  command.add_option("--seed", arguments->seed, "for the choices that are drawn")->capture_default_str();
+  add_seed(command, arguments->seed, "for the choices that are drawn");
   command.add_option("--method", arguments->method, "joint: all cars optimised together")
       ->check(CLI::IsMember({"joint"}))
       ->capture_default_str();

@@ -143,7 +143,7 @@ TEST(BadInput, PlansAreDoubted) {
         repeated("[", 200000), repeated("{\"a\":", 200000), std::string("{\"seine_plan\": 1, \"robots\": 7}"),
         std::string("\xff\xfe\x00\x01", 4)}) {
     scratch.write("p.json", text);
-    for (const std::string& command : {"certify s.yaml p.json", "plot s.yaml p.json -o p.svg",
+    for (const char* command : {"certify s.yaml p.json", "plot s.yaml p.json -o p.svg",
                                        "export s.yaml p.json --rate 10 -o p.csv"}) {
       const Outcome outcome = scratch.run(command);
       EXPECT_EQ(outcome.status, 2) << command << ": " << outcome.err;

@@ -58,7 +58,7 @@ double patience() {
 
 std::string two_cars(const std::string& extra) {
   return "seine: 1\n"
-         "world: {bounds: [-5, -3, 5, 3]}\n"
+         "world: {bounds: [-5, -1.5, 5, 1.5]}\n"
          "robots:\n"
          "  - {name: left, start: {x: -3, y: 0.6, heading: 0}, goal: {x: 3, y: 0.6, heading: 0}}\n"
          "  - {name: right, start: {x: 3, y: -0.6, heading: 3.14159}, goal: {x: -3, y: -0.6, heading: "
