@@ -64,7 +64,7 @@ TEST(AgainstBruteForce, Limits) {
       const Certificate broken = judged(1.0 - 1e-5, which);
       EXPECT_TRUE(!broken.holds && breaks(broken, kinds[which], 0))
           << name_of(kinds[which]) << ": " << summary(broken);
-      EXPECT_EQ(broken.violations.size(), 1u) << summary(broken);
+      ASSERT_EQ(broken.violations.size(), 1u) << summary(broken);
       const double found = broken.violations.front().value, extreme = found / broken.violations.front().limit;
       EXPECT_NEAR(extreme, 1.0, 2e-3) << name_of(kinds[which]);
     }
