@@ -130,8 +130,12 @@ std::string scene(const world::Scenario& scenario, const traj::TeamTrajectory* p
   out += obstacle_layer(scenario, view, plan != nullptr ? plan->makespan() : 0.0, interval);
   if (plan != nullptr) out += ghost_layer(scenario, *plan, view, interval) + path_layer(*plan, view);
   out += end_layer(scenario, view);
-  return out +
-         joined("<rect ", bounds, " fill=\"none\" stroke=\"", SvgInk::kFaint, "\" stroke-width=\"1.5\"/>\n");
+  out += joined("<rect ", bounds, " fill=\"none\" stroke=\"", SvgInk::kFaint, "\" stroke-width=\"1.5\"/>\n");
+  // A thin frame where the bounds lie outside of what is drawn.
+  const Vec2 size = view.size();
+  return out + joined("<rect x=\"", px(view.corner.x), "\" y=\"", px(view.corner.y), "\" width=\"",
+                      px(size.x), "\" height=\"", px(size.y), "\" fill=\"none\" stroke=\"", SvgInk::kFaint,
+                      "\" stroke-width=\"0.8\"/>\n");
 }
 
 double ghost_interval(const world::Scenario& scenario, const traj::TeamTrajectory* plan,

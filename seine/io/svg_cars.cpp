@@ -84,9 +84,12 @@ std::string tick(const vehicle::Model& model, const SvgView& view) {
                 px(view.scale * (box.high.x - 0.08 * box.size().x)), "\"/>");
 }
 
+/// Above the car as it stands at its start.
+/// Above the car as it stands at its start.
 std::string name_label(const world::Robot& robot, const vehicle::Model& model, const SvgView& view) {
-  const double away = 0.5 * model.width() * view.scale + 5.0;
-  const Vec2 at = view(robot.start * geom::bounding_box(model.footprint).center()) - Vec2{0.0, away};
+  geom::Box box;
+  for (const Vec2 corner : model.footprint) box.include(robot.start * corner);
+  const Vec2 at = view({box.center().x, box.high.y}) - Vec2{0.0, 4.5};
   return joined("<text x=\"", px(at.x), "\" y=\"", px(at.y), "\">", xml_text(robot.name), "</text>\n");
 }
 

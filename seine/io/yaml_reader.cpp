@@ -1,13 +1,12 @@
 #include "seine/io/yaml_reader.hpp"
 
-#include <yaml-cpp/depthguard.h>
-
 #include <algorithm>
 #include <numeric>
 #include <unordered_set>
 
 #include "seine/io/message.hpp"
 #include "seine/io/number_text.hpp"
+#include "seine/io/yaml_census.hpp"
 
 namespace seine::io {
 namespace {
@@ -55,15 +54,13 @@ std::string did_you_mean(std::string_view word, const std::vector<std::string_vi
 }
 
 YamlValue YamlValue::parse(std::string_view text, const std::string& file) {
+  expect_one_shallow_document(text, file);
   try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(std::string(text));
-    if (documents.empty() || documents.front().IsNull()) throw complaint(file, 1, "is empty, expected YAML");
-    if (documents.size() > 1) throw complaint(file, 1, "has several YAML documents, expected one");
-    return {documents.front(), std::make_shared<const std::string>(file), "the file"};
-  } catch (const YAML::DeepRecursion& error) {
-    throw complaint(file, error.mark.line + 1, "is nested too deeply");
+    const YAML::Node root = YAML::Load(std::string(text));
+    if (root.IsNull()) throw complaint(file, 1, "is empty, expected YAML");
+    return {root, std::make_shared<const std::string>(file), "the file"};
   } catch (const YAML::Exception& error) {
-    throw complaint(file, error.mark.line + 1, joined("is not valid YAML: ", excerpt(error.msg)));
+    throw complaint(file, error.mark.line + 1, yaml_complaint(error.msg));
   }
 }
 

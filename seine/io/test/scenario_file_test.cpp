@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "seine/base/error.hpp"
+#include "seine/world/check.hpp"
 
 namespace seine::io {
 namespace {
@@ -247,12 +248,26 @@ TEST(ScenarioFile, RefusesWhatIsNoScenario) {
   EXPECT_EQ(complaint_about("a: 1"),
             "team.yaml:1: is no scenario, expected 'seine: 1' (or a CL-MAPF instance, or a TPCAP .csv)");
   EXPECT_EQ(complaint_about("seine: 1\n---\nseine: 1\n"),
-            "team.yaml:1: has several YAML documents, expected one");
+            "team.yaml:1: goes on after its first YAML document, expected one");
+  EXPECT_NE(complaint_about(",hih"), "");
+  EXPECT_EQ(complaint_about("seine: " + std::string(60, '[')), "team.yaml:1: is nested too deeply");
   EXPECT_NE(complaint_about(std::string(100000, '[')), "");
   EXPECT_NE(complaint_about(std::string(100000, '{')), "");
   std::string deep = "seine: 1\nworld: ";
   for (int i = 0; i < 100000; ++i) deep += "[";
   EXPECT_NE(complaint_about(deep), "");
+}
+
+TEST(ScenarioFile, ExamplesAreAnswerable) {
+  for (const auto& entry : fs::directory_iterator(kData / "scenarios")) {
+    const Scenario scenario = load_scenario(entry.path());
+    EXPECT_EQ(world::check(scenario, world::StaticMap(scenario)), std::vector<std::string>{}) << entry.path();
+    expect_equal(scenario, [&] {
+      Scenario again = parse(scenario_text(scenario));
+      again.map = scenario.map;
+      return again;
+    }());
+  }
 }
 
 TEST(ScenarioFile, SameNamesAreRefused) {
@@ -290,6 +305,17 @@ TEST(Clmapf, ReadsEveryInstance) {
     ++count;
   }
   EXPECT_EQ(count, 150);
+}
+
+TEST(Clmapf, AQuarterOfTheInstancesStartOrEndInAnObstacle) {
+  int unanswerable = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(kData / "clmapf_clcbs")) {
+    if (entry.path().filename().string().rfind("map_", 0) != 0) continue;
+    const Scenario scenario = load_scenario(entry.path());
+    unanswerable += world::check(scenario, world::StaticMap(scenario)).empty() ? 0 : 1;
+  }
+  // Counted by a separate script too, with the yaw turned clockwise; turned the other way it would be 35.
+  EXPECT_EQ(unanswerable, 37);
 }
 
 TEST(Clmapf, YawTurnsClockwise) {

@@ -1,0 +1,71 @@
+#include "seine/io/yaml_census.hpp"
+
+#include <yaml-cpp/depthguard.h>
+#include <yaml-cpp/eventhandler.h>
+#include <yaml-cpp/yaml.h>
+
+#include <sstream>
+
+#include "seine/io/message.hpp"
+
+namespace seine::io {
+namespace {
+
+constexpr int kDeepest = 40;  // levels; a scenario has seven
+
+/// Counts levels, builds nothing.
+class DepthHandler final : public YAML::EventHandler {
+ public:
+  explicit DepthHandler(const std::string& file) : file_(file) {}
+
+  void OnDocumentStart(const YAML::Mark&) override {}
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t, const std::string&) override {}
+  void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
+                       YAML::EmitterStyle::value) override {
+    enter(mark);
+  }
+  void OnSequenceEnd() override { --depth_; }
+  void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
+                  YAML::EmitterStyle::value) override {
+    enter(mark);
+  }
+  void OnMapEnd() override { --depth_; }
+
+ private:
+  void enter(const YAML::Mark& mark) {
+    if (++depth_ > kDeepest) throw complaint(file_, mark.line + 1, "is nested too deeply");
+  }
+
+  const std::string& file_;
+  int depth_ = 0;
+};
+
+}  // namespace
+
+std::string yaml_complaint(const std::string& said) {
+  std::string shown = said.substr(0, 80);
+  for (char& c : shown) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+  }
+  return joined("is not valid YAML: ", shown);
+}
+
+void expect_one_shallow_document(std::string_view text, const std::string& file) {
+  try {
+    std::istringstream stream{std::string(text)};
+    YAML::Parser parser(stream);
+    DepthHandler handler(file);
+    if (!parser.HandleNextDocument(handler)) throw complaint(file, 1, "is empty, expected YAML");
+    // Not YAML::LoadAll: in version 0.7 it finds endless empty documents in a text that begins with a comma.
+    if (parser) throw complaint(file, 1, "goes on after its first YAML document, expected one");
+  } catch (const YAML::DeepRecursion& error) {
+    throw complaint(file, error.mark.line + 1, "is nested too deeply");
+  } catch (const YAML::Exception& error) {
+    throw complaint(file, error.mark.line + 1, yaml_complaint(error.msg));
+  }
+}
+
+}  // namespace seine::io
