@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <memory>
+#include <numeric>
 
 #include "seine/base/workers.hpp"
 #include "seine/search/coordinator.hpp"
 #include "seine/search/path_planner.hpp"
+#include "seine/search/roundabout.hpp"
 #include "seine/search/side_step.hpp"
 #include "seine/search/team_search.hpp"
 
@@ -17,38 +20,47 @@ std::size_t idx(int i) {
   return static_cast<std::size_t>(i);
 }
 
+// A set of ways for everybody, and how far it got with them.
+struct Attempt {
+  std::unique_ptr<Coordinator> coordinator;
+  TeamState state;
+  bool complete = false;
+};
+
 // One guess from the question to the answer.
 class Guess {
  public:
-  Guess(const world::Scenario& scenario, const world::StaticMap& map, const GuessOptions& options)
-      : scenario_(scenario),
-        options_(options),
-        coordinator_(scenario, options.lattice, options.extra_robot_clearance),
-        state_(scenario.robots.size()) {
-    Stopwatch watch;
-    for (const vehicle::Model& model : scenario.models) {
-      planners_.emplace_back(map, model);
-      side_steps_.emplace_back(map, model, scenario.margins.obstacle);
-    }
-    guess_.seconds.field = watch.seconds();
-  }
-
+  Guess(const world::Scenario& scenario, const world::StaticMap& map, const GuessOptions& options);
   TeamGuess run();
 
  private:
   std::optional<Path> find_path(int robot, std::span<const Bump> bumps,
                                 std::span<const std::vector<geom::Vec2>> parked, int expansions) const;
-  bool find_first_ways();
-  void answer(bool complete);
+  TeamSearch::Sources sources() const;
+  Attempt new_attempt() const;
+  bool find_first_ways(Attempt& attempt);
+  void coordinate(Attempt& attempt);
+  std::optional<Attempt> go_round(const Attempt& straight);
+  Attempt by_ring(const Attempt& straight, const Crossing& crossing, double radius);
+  void answer(const Attempt& attempt);
 
   const world::Scenario& scenario_;
+  const world::StaticMap& map_;
   const GuessOptions& options_;
   std::vector<PathPlanner> planners_;  // one for each model
   std::deque<SideStep> side_steps_;    // likewise
-  Coordinator coordinator_;
-  TeamState state_;
   TeamGuess guess_;
 };
+
+Guess::Guess(const world::Scenario& scenario, const world::StaticMap& map, const GuessOptions& options)
+    : scenario_(scenario), map_(map), options_(options) {
+  Stopwatch watch;
+  for (const vehicle::Model& model : scenario.models) {
+    planners_.emplace_back(map, model);
+    side_steps_.emplace_back(map, model, scenario.margins.obstacle);
+  }
+  guess_.seconds.field = watch.seconds();
+}
 
 std::optional<Path> Guess::find_path(int robot, std::span<const Bump> bumps,
                                      std::span<const std::vector<geom::Vec2>> parked, int expansions) const {
@@ -62,58 +74,126 @@ std::optional<Path> Guess::find_path(int robot, std::span<const Bump> bumps,
                                          .deadline = options_.deadline});
 }
 
-// The shortest path of everybody, and the motions that are given. False: somebody has none.
-bool Guess::find_first_ways() {
-  const int count = coordinator_.robots();
+TeamSearch::Sources Guess::sources() const {
+  return {[this](int robot, std::span<const Bump> bumps, std::span<const std::vector<geom::Vec2>> parked,
+                 int expansions) { return find_path(robot, bumps, parked, expansions); },
+          [this](int robot, const Path& path, double s, double offset) {
+            return side_steps_[idx(scenario_.robots[idx(robot)].model)].around(path, s, offset);
+          }};
+}
+
+// Nobody has a way yet; who is fixed has its motion.
+Attempt Guess::new_attempt() const {
+  Attempt attempt{std::make_unique<Coordinator>(scenario_, options_.lattice, options_.extra_robot_clearance),
+                  TeamState(scenario_.robots.size())};
   if (options_.fixed != nullptr)
-    for (int i = 0; i < count; ++i)
-      if ((*options_.fixed)[idx(i)]) coordinator_.fix(i, *(*options_.fixed)[idx(i)], state_);
+    for (std::size_t i = 0; i < scenario_.robots.size(); ++i)
+      if ((*options_.fixed)[i])
+        attempt.coordinator->fix(static_cast<int>(i), *(*options_.fixed)[i], attempt.state);
+  return attempt;
+}
+
+// The shortest path of everybody. False: somebody has none.
+bool Guess::find_first_ways(Attempt& attempt) {
+  const int count = attempt.coordinator->robots();
   Workers workers(std::max(1, options_.threads));
-  workers.run(count, [this](int robot) {
-    if (state_[idx(robot)]) return;
+  workers.run(count, [&](int robot) {
+    if (attempt.coordinator->fixed(robot)) return;
     constexpr int kPatience = 20000;
     if (std::optional<Path> path = find_path(robot, {}, {}, kPatience))
-      coordinator_.add_way(robot, std::move(*path));
+      attempt.coordinator->add_way(robot, std::move(*path));
   });
   for (int i = 0; i < count; ++i)
-    if (!state_[idx(i)] && coordinator_.ways(i).empty())
+    if (!attempt.coordinator->fixed(i) && attempt.coordinator->ways(i).empty())
       guess_.reason +=
           (guess_.reason.empty() ? "no path even alone: " : ", ") + scenario_.robots[idx(i)].name;
   return guess_.reason.empty();
 }
 
-void Guess::answer(bool complete) {
-  for (int i = 0; i < coordinator_.robots(); ++i) {
-    guess_.alone.push_back(coordinator_.alone(i));
-    const auto& placement = state_[idx(i)];
-    guess_.robots.push_back(placement ? coordinator_.motion(i, *placement) : TimedPath{});
-    if (!placement && guess_.reason.empty()) guess_.reason = "no motion among the others: ";
-    if (!placement) guess_.reason += scenario_.robots[idx(i)].name + " ";
+void Guess::coordinate(Attempt& attempt) {
+  TeamSearch search(*attempt.coordinator, sources(), options_.team, options_.seed);
+  attempt.complete = search.solve(attempt.state, options_.deadline);
+  if (attempt.complete) search.improve(attempt.state, options_.deadline);
+  guess_.effort = search.effort();
+}
+
+// Everybody keeps right around the densest crossing; the best of a few rings, when it flows.
+std::optional<Attempt> Guess::go_round(const Attempt& straight) {
+  const auto crossing = find_crossing(scenario_);
+  if (!crossing) return std::nullopt;
+  const double alone = std::accumulate(guess_.alone.begin(), guess_.alone.end(), 0.0);
+  const double radius = ring_radius(scenario_, *crossing);
+  // Smaller as long as that is quicker; if it is not at once, larger.
+  constexpr double kSmaller = 0.94, kLarger = 1.12;
+  std::optional<Attempt> best;
+  const auto quicker = [&](double scale) {
+    Attempt attempt = by_ring(straight, *crossing, scale * radius);
+    if (!attempt.complete || (best && sum_of_arrivals(attempt.state) >= sum_of_arrivals(best->state)))
+      return false;
+    best = std::move(attempt);
+    return true;
+  };
+  quicker(1.0);
+  double scale = kSmaller;
+  while (quicker(scale)) scale *= kSmaller;
+  if (scale == kSmaller)
+    for (scale = kLarger; scale < 2.0 && quicker(scale);) scale *= kLarger;
+  constexpr double kFlows = 1.6;  // of the time alone: beyond, giving way may be quicker
+  if (!best || sum_of_arrivals(best->state) > kFlows * alone) return std::nullopt;
+  TeamSearch search(*best->coordinator, sources(), options_.team, options_.seed);
+  search.improve(best->state, options_.deadline);
+  guess_.effort = search.effort();
+  return best;
+}
+
+// Who can take the ring has no other way yet.
+Attempt Guess::by_ring(const Attempt& straight, const Crossing& crossing, double radius) {
+  Attempt attempt = new_attempt();
+  for (int i = 0; i < straight.coordinator->robots(); ++i) {
+    if (attempt.coordinator->fixed(i)) continue;
+    std::optional<Path> path;
+    if (std::binary_search(crossing.robots.begin(), crossing.robots.end(), i))
+      path = path_by_ring(scenario_, map_, i, crossing.center, radius);
+    if (!path) path = straight.coordinator->ways(i).front()->lattice.path();
+    attempt.coordinator->add_way(i, std::move(*path));
   }
-  guess_.complete = complete;
+  TeamSearchOptions brief = options_.team;  // a ring that needs more does not flow
+  brief.passes = 1;
+  brief.repairs_each = 1;
+  brief.rescuing_paths = 0.0;
+  TeamSearch search(*attempt.coordinator, {}, brief, options_.seed);
+  attempt.complete = search.solve(attempt.state, options_.deadline);
+  return attempt;
+}
+
+void Guess::answer(const Attempt& attempt) {
+  for (int i = 0; i < attempt.coordinator->robots(); ++i) {
+    const auto& placement = attempt.state[idx(i)];
+    guess_.robots.push_back(placement ? attempt.coordinator->motion(i, *placement) : TimedPath{});
+  }
+  guess_.complete = attempt.complete;
+  if (guess_.complete || !guess_.reason.empty()) return;
+  guess_.reason = "no motion found among the others:";
+  for (std::size_t i = 0; i < attempt.state.size(); ++i)
+    if (!attempt.state[i]) guess_.reason += ' ' + scenario_.robots[i].name;
 }
 
 TeamGuess Guess::run() {
   Stopwatch watch;
-  const bool all = find_first_ways();
+  Attempt attempt = new_attempt();
+  const bool all = find_first_ways(attempt);
   guess_.seconds.paths = watch.seconds();
-  if (!all) {
-    answer(false);
-    return std::move(guess_);
-  }
+  for (int i = 0; i < attempt.coordinator->robots(); ++i)
+    guess_.alone.push_back(attempt.coordinator->alone(i));
   Stopwatch coordination;
-  const auto find = [this](int robot, std::span<const Bump> bumps,
-                           std::span<const std::vector<geom::Vec2>> parked,
-                           int expansions) { return find_path(robot, bumps, parked, expansions); };
-  const auto beside = [this](int robot, const Path& path, double s, double offset) {
-    return side_steps_[idx(scenario_.robots[idx(robot)].model)].around(path, s, offset);
-  };
-  TeamSearch search(coordinator_, {find, beside}, options_.team, options_.seed);
-  const bool solved = search.solve(state_, options_.deadline);
-  if (solved) search.improve(state_, options_.deadline);
-  guess_.effort = search.effort();
+  if (all) {
+    if (std::optional<Attempt> round = go_round(attempt))
+      attempt = std::move(*round);
+    else
+      coordinate(attempt);
+  }
   guess_.seconds.coordinate = coordination.seconds();
-  answer(solved);
+  answer(attempt);
   return std::move(guess_);
 }
 
