@@ -17,8 +17,8 @@ int channel(double linear) {
   return static_cast<int>(std::lround(255.0 * encoded));
 }
 
-/// Lightness, chroma and hue of the OKLab space [Ottosson20] as sRGB: equal lightness looks equally light in
-/// every hue.
+/// Lightness, chroma and hue of the OKLab space (B. Ottosson, 2020) as sRGB: equal lightness looks equally
+/// light in every hue.
 std::string oklch(double lightness, double chroma, double hue) {
   const double a = chroma * std::cos(hue), b = chroma * std::sin(hue);
   const double l = std::pow(lightness + 0.3963377774 * a + 0.2158037573 * b, 3);

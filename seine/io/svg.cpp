@@ -128,8 +128,11 @@ std::string scene(const world::Scenario& scenario, const traj::TeamTrajectory* p
   std::string out = joined("<rect ", bounds, " fill=\"", SvgInk::kFloor, "\"/>\n");
   out += map_layer(scenario, view);
   out += obstacle_layer(scenario, view, plan != nullptr ? plan->makespan() : 0.0, interval);
-  if (plan != nullptr) out += ghost_layer(scenario, *plan, view, interval) + path_layer(*plan, view);
+  if (plan != nullptr) out += ghost_layer(scenario, *plan, view, interval);
   out += end_layer(scenario, view);
+  // Ways lie over starts and goals: that is where cars change gear.
+  if (plan != nullptr) out += path_layer(*plan, view);
+  out += name_layer(scenario, view);
   out += joined("<rect ", bounds, " fill=\"none\" stroke=\"", SvgInk::kFaint, "\" stroke-width=\"1.5\"/>\n");
   // A thin frame where the bounds lie outside of what is drawn.
   const Vec2 size = view.size();

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "seine/io/message.hpp"
 #include "seine/io/number_text.hpp"
@@ -51,11 +52,18 @@ Vec2 beginning(const traj::Segment& segment) {
   return {segment.curve[0][0][0], segment.curve[0][1][0]};
 }
 
+/// False for a segment whose progress stays at 0: the car has nowhere to go.
+bool moves(const traj::Segment& segment) {
+  if (segment.curve.empty() || segment.progress.empty()) return false;
+  const traj::Quintic& last = segment.progress.back();
+  return std::accumulate(last.begin(), last.end(), 0.0) > 1e-6;
+}
+
 /// Path data of a robot's segments in one gear; gear 0 takes all.
 std::string way(const traj::RobotTrajectory& robot, int gear, const SvgView& view) {
   std::string data;
   for (const traj::Segment& segment : robot.segments) {
-    if (segment.curve.empty() || (gear != 0 && segment.gear != gear)) continue;
+    if (!moves(segment) || (gear != 0 && segment.gear != gear)) continue;
     data += joined("M", px(view(beginning(segment))));
     for (const auto& piece : segment.curve) data += bezier(piece, view);
   }
@@ -140,9 +148,8 @@ std::string path_layer(const traj::TeamTrajectory& plan, const SvgView& view) {
 }
 
 std::string end_layer(const world::Scenario& scenario, const SvgView& view) {
-  std::string starts =
-      "<g fill=\"#fff\" fill-opacity=\"0.85\" stroke-width=\"1.4\" stroke-linejoin=\"round\">\n";
-  std::string goals = "<g stroke-width=\"1.2\" stroke-linejoin=\"round\">\n", labels;
+  std::string starts = "<g fill=\"#fff\" stroke-width=\"1.4\" stroke-linejoin=\"round\">\n";
+  std::string goals = "<g stroke-width=\"1.2\" stroke-linejoin=\"round\">\n";
   for (std::size_t k = 0; k < scenario.robots.size(); ++k) {
     const world::Robot& robot = scenario.robots[k];
     const vehicle::Model& model = scenario.model_of(robot);
@@ -153,16 +160,18 @@ std::string end_layer(const world::Scenario& scenario, const SvgView& view) {
     goals += car(robot.model, robot.goal, view, joined(line, " fill=\"", colour, "\""));
     goals += joined("<g transform=\"", placement(robot.goal, view), "\" stroke=\"#fff\">", tick(model, view),
                     "</g>\n");
-    labels += name_label(robot, model, view);
   }
-  std::string out = goals + "</g>\n" + starts + "</g>\n";
-  if (scenario.robots.size() <= kNamedCars) {
-    out +=
-        joined("<g font-size=\"10\" text-anchor=\"middle\" fill=\"", SvgInk::kText,
-               "\" stroke=\"#fff\" stroke-width=\"2.5\" stroke-linejoin=\"round\" paint-order=\"stroke\">\n",
-               labels, "</g>\n");
-  }
-  return out;
+  return joined(goals, "</g>\n", starts, "</g>\n");
+}
+
+std::string name_layer(const world::Scenario& scenario, const SvgView& view) {
+  if (scenario.robots.size() > kNamedCars) return "";
+  std::string labels;
+  for (const world::Robot& robot : scenario.robots)
+    labels += name_label(robot, scenario.model_of(robot), view);
+  return joined("<g font-size=\"10\" text-anchor=\"middle\" fill=\"", SvgInk::kText,
+                "\" stroke=\"#fff\" stroke-width=\"2.5\" stroke-linejoin=\"round\" paint-order=\"stroke\">\n",
+                labels, "</g>\n");
 }
 
 }  // namespace seine::io

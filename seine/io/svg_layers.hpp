@@ -35,7 +35,9 @@ std::string ghost_layer(const world::Scenario& scenario, const traj::TeamTraject
                         const SvgView& view, double interval);
 /// The ways of the rear axles: solid forward, dashed backward, a ring at every gear change.
 std::string path_layer(const traj::TeamTrajectory& plan, const SvgView& view);
-/// Starts as outlines, goals filled, both with a tick that points forward; names where there are few.
+/// Starts as outlines, goals filled, both with a tick that points forward.
 std::string end_layer(const world::Scenario& scenario, const SvgView& view);
+/// Names at the starts, where they are few.
+std::string name_layer(const world::Scenario& scenario, const SvgView& view);
 
 }  // namespace seine::io
