@@ -50,7 +50,7 @@ double RouteCosts::of(const geom::Pose2& from, std::span<const Arc> arcs, const 
   // The first stretch may have begun before `from`, so it is never called short unless it starts from rest.
   bool whole = before == nullptr;
   const auto close_stretch = [&] {
-    if (whole && stretch < short_stretch) cost += driving.gear_change * (1.0 - stretch / short_stretch);
+    if (whole && stretch < short_stretch) cost += 2.0 * driving.gear_change * (1.0 - stretch / short_stretch);
   };
   for (const Arc& arc : arcs) {
     if (before != nullptr && arc.gear() != before->gear()) {

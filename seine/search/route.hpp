@@ -25,7 +25,8 @@ struct RouteCosts {
   vehicle::DrivingCosts driving;
   double radius = 1.0;           ///< m, of the tightest turn: the unit of curvature changes
   double steering_change = 0.0;  ///< m, from straight to the tightest turn
-  double short_stretch = 0.0;  ///< m: a stretch in one gear shorter than this costs up to another gear change
+  double short_stretch =
+      0.0;  ///< m: a stretch in one gear shorter than this costs up to two more gear changes
   std::span<const Bump> bumps;
 
   /// @param before  the arc driven before (its gear and curvature), or null at a start from rest
