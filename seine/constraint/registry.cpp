@@ -4,9 +4,9 @@
 
 #include "seine/constraint/corridor.hpp"
 #include "seine/constraint/curvature.hpp"
+#include "seine/constraint/footprint_distance.hpp"
 #include "seine/constraint/inter_vehicle.hpp"
 #include "seine/constraint/lateral_acceleration.hpp"
-#include "seine/constraint/moving_obstacle.hpp"
 #include "seine/constraint/progress.hpp"
 #include "seine/constraint/regularity.hpp"
 #include "seine/constraint/speed.hpp"
@@ -93,20 +93,17 @@ double inter_vehicle_entry(std::span<const double> x, std::span<double> g) {
   return value;
 }
 
-double moving_obstacle_entry(std::span<const double> x, std::span<double> g) {
+double footprint_distance_entry(std::span<const double> x, std::span<double> g) {
   static const std::vector<Vec2> footprint{{-0.2, -0.3}, {0.8, -0.2}, {1.0, 0.1}, {-0.1, 0.4}};
-  static const std::vector<Vec2> body{{3.0, 3.0}, {4.0, 3.2}, {3.4, 4.0}};
-  // The exact distance is of a rigid motion: only unit directions are meant, so the input is an angle.
-  const Vec2 d = geom::unit(x[2]);
-  Vec2 g_p, g_d;
-  double value = moving_obstacle({x[0], x[1]}, d, footprint, body, 0.1, g_p, g_d);
-  FootprintGradient f;
-  const Vec2 other = geom::unit(x[5]);
-  value += footprint_distance({x[0], x[1]}, d, footprint, {x[3] - 5.0, x[4]}, other, body, f);
-  put(g, {g_p + f.position_a});
-  g[2] = geom::cross(d, g_d + f.direction_a);
-  g[3] = f.position_b.x, g[4] = f.position_b.y;
-  g[5] = geom::cross(other, f.direction_b);
+  static const std::vector<Vec2> body{{-0.5, -0.4}, {0.6, -0.3}, {0.1, 0.5}};
+  // The distance is of a rigid motion: only unit directions are meant, so the inputs are angles.
+  const Vec2 da = geom::unit(x[2]), db = geom::unit(x[5]);
+  FootprintGradient d;
+  const double value = footprint_distance({x[0], x[1]}, da, footprint, {x[3], x[4]}, db, body, d);
+  put(g, {d.position_a});
+  g[2] = geom::cross(da, d.direction_a);
+  g[3] = d.position_b.x, g[4] = d.position_b.y;
+  g[5] = geom::cross(db, d.direction_b);
   return value;
 }
 
@@ -115,9 +112,9 @@ double moving_obstacle_entry(std::span<const double> x, std::span<double> g) {
 std::vector<Entry> registry() {
   return {{"corridor", 4, corridor_entry, draw_pair},
           {"curvature", 4, curvature_entry, draw_curve},
+          {"footprint_distance", 6, footprint_distance_entry, draw_any},
           {"inter_vehicle", 6, inter_vehicle_entry, draw_any},
           scalar("lateral_acceleration", lateral_acceleration),
-          {"moving_obstacle", 6, moving_obstacle_entry, draw_any},
           scalar("progress", progress),
           {"regularity", 3, regularity_entry, draw_curve},
           scalar("speed", speed),

@@ -20,9 +20,14 @@ Pose2 pose_at(const std::vector<world::Waypoint>& motion, double t) {
           a.pose.heading + r * geom::wrap_angle(b.pose.heading - a.pose.heading)};
 }
 
+trajopt::Placement placed(const Pose2& pose, const trajopt::Units& units) {
+  return {pose.position() / units.length, pose.direction()};
+}
+
 }  // namespace
 
-std::vector<trajopt::Body> moving_obstacles(const world::Scenario& scenario, double tick, int ticks) {
+std::vector<trajopt::Body> moving_obstacles(const world::Scenario& scenario, const trajopt::Units& units, double slack,
+                                            double tick, int ticks) {
   std::vector<trajopt::Body> bodies;
   for (const world::Obstacle& obstacle : scenario.obstacles) {
     if (obstacle.motion.empty()) continue;
@@ -33,30 +38,39 @@ std::vector<trajopt::Body> moving_obstacles(const world::Scenario& scenario, dou
       for (auto& part : geom::convex_parts(std::get<0>(obstacle.shape))) parts.push_back({std::move(part), 0.0});
     for (const geom::Convex& part : parts) {
       trajopt::Body body;
-      body.vertices = static_cast<int>(part.core.size());
-      body.radius = part.radius;
-      body.clearance = scenario.margins.obstacle;
-      for (int k = 0; k < ticks; ++k) {
-        const Pose2 pose = pose_at(obstacle.motion, k * tick);
-        for (const geom::Vec2 vertex : part.core) body.polygons.push_back(pose * vertex);
-      }
+      body.shape = trajopt::shape_of(part.core, units.length);
+      body.radius = part.radius / units.length;
+      body.clearance = scenario.margins.obstacle / units.length + slack;
+      for (int k = 0; k < ticks; ++k) body.placements.push_back(placed(pose_at(obstacle.motion, k * tick), units));
       bodies.push_back(std::move(body));
     }
   }
   return bodies;
 }
 
-trajopt::Body driven(const traj::RobotTrajectory& trajectory, const vehicle::Model& model, double clearance, double tick,
-                     int ticks) {
+trajopt::Body car_body(const vehicle::Model& model, double clearance, const trajopt::Units& units, double slack) {
   trajopt::Body body;
-  body.vertices = static_cast<int>(model.footprint.size());
-  body.clearance = clearance;
-  body.robot = true;
-  for (int k = 0; k < ticks; ++k) {
-    const Pose2 pose = trajectory.at(k * tick).pose;
-    for (const geom::Vec2 vertex : model.footprint) body.polygons.push_back(pose * vertex);
-  }
+  body.shape = trajopt::shape_of(model.footprint, units.length);
+  body.clearance = clearance / units.length + slack;
   return body;
+}
+
+void place(trajopt::Body& body, const traj::RobotTrajectory& trajectory, const trajopt::Units& units, double tick, int ticks) {
+  body.placements.clear();
+  const double arrival = trajectory.arrival();
+  for (int k = 0; k < ticks; ++k) {
+    body.placements.push_back(placed(trajectory.at(k * tick).pose, units));
+    if (k * tick > arrival) break;  // it rests there for good
+  }
+}
+
+void place(trajopt::Body& body, const search::TimedPath& path, const trajopt::Units& units, double tick, int ticks) {
+  body.placements.clear();
+  const double arrival = path.arrival();
+  for (int k = 0; k < ticks; ++k) {
+    body.placements.push_back(placed(search::pose_at(path.path, path.at(k * tick).s), units));
+    if (k * tick > arrival) break;
+  }
 }
 
 }  // namespace seine::planner

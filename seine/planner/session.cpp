@@ -2,27 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "seine/base/error.hpp"
 #include "seine/certify/certificate.hpp"
+#include "seine/planner/groups.hpp"
 #include "seine/planner/moving_bodies.hpp"
 #include "seine/world/check.hpp"
 
 namespace seine::planner {
 namespace {
 
-constexpr int kPolishRounds = 4;
+constexpr int kPolishRounds = 8;
 constexpr int kAttempts = 6;
-constexpr double kTick = 0.05;           // of the time a car takes to drive its own length
+constexpr double kTick = 0.05;            // of the time a car takes to drive its own length
+constexpr double kCloseGap = 0.25;        // car lengths: cars that come this close are optimised jointly
 constexpr double kPenaltyRaise = 3.0;
 constexpr double kClearanceRaise = 0.01;  // car lengths, on top of what was missed
-
-std::vector<int> everybody(std::size_t count) {
-  std::vector<int> all(count);
-  std::iota(all.begin(), all.end(), 0);
-  return all;
-}
+constexpr int kLargeGroup = 6;            // a group this large is worth all threads
 
 }  // namespace
 
@@ -38,7 +34,7 @@ PlanResult Session::run() {
   for (int attempt = 0; attempt < kAttempts && !deadline_.expired(); ++attempt) {
     if (!guess(static_cast<std::uint64_t>(attempt))) continue;
     prepare();
-    solve(everybody(scenario_.robots.size()), true);
+    optimise();
     polish();
     if (result_.certified) break;
     ++result_.repairs;
@@ -68,62 +64,111 @@ void Session::prepare() {
     const auto i = static_cast<std::size_t>(k);
     tasks_[i] = fit(guess_.robots[i], scenario_, scenario_.robots[i], map_);
   });
-  demands_ = {std::vector<double>(count, 1.0), std::vector<double>(count * count, 0.0), std::vector<double>(count, 0.0)};
-  solution_.assign(count, {});
-  result_.plan.robots.assign(count, {});
   units_ = trajopt::units_of(tasks_);
   tick_ = kTick * units_.time;
   double last = 0.0;
   for (const search::TimedPath& path : guess_.robots) last = std::max(last, path.arrival());
   ticks_ = static_cast<int>(std::ceil(1.2 * last / tick_)) + 80;
+  bodies_.clear();
+  for (const trajopt::RobotTask& task : tasks_)
+    bodies_.push_back(car_body(task.model, scenario_.margins.robot, units_, settings_.clearance_slack));
+  for (trajopt::Body& body : moving_obstacles(scenario_, units_, settings_.clearance_slack, tick_, ticks_))
+    bodies_.push_back(std::move(body));
+  workers_.run(static_cast<int>(count), [&](int k) {
+    const auto i = static_cast<std::size_t>(k);
+    place(bodies_[i], guess_.robots[i], units_, tick_, ticks_);
+  });
+  extra_.assign(count * bodies_.size(), 0.0);
+  penalty_scale_.assign(count, 1.0);
+  solution_.assign(count, {});
+  evaluations_.assign(count, 0);
+  result_.plan.robots.assign(count, {});
   result_.times.corridor += watch.seconds();
 }
 
-trajopt::Task Session::task_for(const std::vector<int>& robots) const {
+void Session::place_bodies() {
+  workers_.run(static_cast<int>(tasks_.size()), [&](int k) {
+    const auto i = static_cast<std::size_t>(k);
+    place(bodies_[i], result_.plan.robots[i], units_, tick_, ticks_);
+  });
+}
+
+void Session::optimise() {
+  const Stopwatch watch;
+  report("optimise", 0.0);
+  std::vector<Group> alone;
+  for (int k = 0; k < static_cast<int>(tasks_.size()); ++k) alone.push_back({k});
+  solve_groups(alone, true);
+  report("optimise", 0.5);
+  std::vector<Group> close = close_groups(kCloseGap * units_.length);
+  std::erase_if(close, [](const Group& group) { return group.size() < 2; });
+  solve_groups(close, false);
+  result_.times.optimise += watch.seconds();
+}
+
+// Groups do not see each other's changes until all are done.
+void Session::solve_groups(const std::vector<Group>& groups, bool from_guess) {
+  std::vector<const Group*> small;
+  for (const Group& group : groups) {
+    if (group.size() >= kLargeGroup)
+      solve(group, from_guess, workers_);
+    else
+      small.push_back(&group);
+  }
+  workers_.run(static_cast<int>(small.size()), [&](int k) {
+    Workers serial(1);
+    solve(*small[static_cast<std::size_t>(k)], from_guess, serial);
+  });
+  for (const Group& group : groups) result_.iterations += evaluations_[static_cast<std::size_t>(group.front())];
+  place_bodies();
+}
+
+trajopt::Task Session::task_for(const Group& group) const {
   trajopt::Task task;
-  const std::size_t count = scenario_.robots.size();
   task.units = units_, task.tick = tick_, task.ticks = ticks_;
   task.robot_clearance = scenario_.margins.robot;
-  task.bodies = moving_obstacles(scenario_, tick_, ticks_);
-  std::vector<char> active(count, 0);
-  for (const int k : robots) {
+  std::vector<std::size_t> others;
+  for (std::size_t body = 0; body < bodies_.size(); ++body)
+    if (!std::binary_search(group.begin(), group.end(), static_cast<int>(body))) others.push_back(body);
+  for (const std::size_t body : others) task.bodies.push_back(&bodies_[body]);
+  for (const int k : group) {
     const auto i = static_cast<std::size_t>(k);
-    active[i] = 1;
-    task.robots.push_back(tasks_[i]);
-    task.robots.back().penalty_scale = demands_.penalty_scale[i];
-    for (double& b : task.robots.back().corridor.b) b -= demands_.obstacle_extra[i];
+    task.robots.push_back(&tasks_[i]);
+    task.penalty_scale.push_back(penalty_scale_[i]);
+    for (const int other : group) task.extra.push_back(extra_[i * bodies_.size() + static_cast<std::size_t>(other)]);
+    for (const std::size_t body : others) task.extra.push_back(extra_[i * bodies_.size() + body]);
   }
-  for (const int a : robots)
-    for (const int b : robots)
-      task.pair_extra.push_back(demands_.pair_extra[static_cast<std::size_t>(a) * count + static_cast<std::size_t>(b)]);
-  for (std::size_t i = 0; i < count; ++i)
-    if (!active[i])
-      task.bodies.push_back(driven(result_.plan.robots[i], scenario_.model_of(scenario_.robots[i]),
-                                   scenario_.margins.robot, tick_, ticks_));
   return task;
 }
 
-void Session::solve(const std::vector<int>& robots, bool from_guess) {
-  const Stopwatch watch;
-  report("optimise", from_guess ? 0.0 : 0.5);
-  trajopt::JointProblem problem(task_for(robots), {}, workers_);
+void Session::solve(const Group& group, bool from_guess, Workers& workers) {
+  trajopt::JointProblem problem(task_for(group), settings_, workers);
   std::vector<double> x = problem.initial();
   const auto slice = [&](std::size_t i) {
     return std::span(x).subspan(static_cast<std::size_t>(problem.offsets()[i]),
                                 static_cast<std::size_t>(problem.offsets()[i + 1] - problem.offsets()[i]));
   };
   if (!from_guess)
-    for (std::size_t i = 0; i < robots.size(); ++i)
-      std::ranges::copy(solution_[static_cast<std::size_t>(robots[i])], slice(i).begin());
+    for (std::size_t i = 0; i < group.size(); ++i)
+      std::ranges::copy(solution_[static_cast<std::size_t>(group[i])], slice(i).begin());
   const trajopt::SolveSummary summary = problem.solve(x, deadline_, !from_guess);
-  result_.iterations += summary.soft_evaluations + summary.stiff_evaluations;
   const traj::TeamTrajectory solved = problem.trajectory(x);
-  for (std::size_t i = 0; i < robots.size(); ++i) {
-    const auto k = static_cast<std::size_t>(robots[i]);
+  for (std::size_t i = 0; i < group.size(); ++i) {
+    const auto k = static_cast<std::size_t>(group[i]);
     solution_[k].assign(slice(i).begin(), slice(i).end());
+    evaluations_[k] = summary.soft_evaluations + summary.stiff_evaluations;
     result_.plan.robots[k] = solved.robots[i];
   }
-  result_.times.optimise += watch.seconds();
+}
+
+std::vector<Session::Group> Session::close_groups(double gap) const {
+  Groups groups(static_cast<int>(tasks_.size()));
+  const double limit = gap / units_.length;
+  for (std::size_t a = 0; a < tasks_.size(); ++a)
+    for (std::size_t b = a + 1; b < tasks_.size(); ++b)
+      if (come_within(bodies_[a], bodies_[b], bodies_[a].clearance + limit))
+        groups.join(static_cast<int>(a), static_cast<int>(b));
+  return groups.all();
 }
 
 bool Session::certify() {
@@ -141,37 +186,47 @@ bool Session::certify() {
 void Session::polish() {
   for (int round = 0; round < kPolishRounds; ++round) {
     if (certify() || deadline_.expired()) return;
-    solve(raise_demands(), false);
+    const Stopwatch watch;
+    report("repair", static_cast<double>(round) / kPolishRounds);
+    solve_groups(raise_demands(round), false);
+    result_.times.optimise += watch.seconds();
   }
   certify();
 }
 
-// Asks more where the certificate found fault; returns the cars at fault.
-std::vector<int> Session::raise_demands() {
-  std::vector<char> at_fault(scenario_.robots.size(), 0);
-  const std::size_t count = at_fault.size();
+// Asks more where the certificate found fault; returns the cars at fault, grouped by whom they conflict with.
+std::vector<Session::Group> Session::raise_demands(int round) {
+  const std::size_t count = tasks_.size();
+  Groups groups(static_cast<int>(count));
+  std::vector<char> at_fault(count, 0);
   for (const certify::Violation& v : result_.certificate.violations) {
     if (v.robot < 0) continue;
     const auto a = static_cast<std::size_t>(v.robot);
     at_fault[a] = 1;
-    const double raise = kClearanceRaise * units_.length + std::max(0.0, std::min(v.limit - v.value, 0.1 * units_.length));
+    const double missed = std::clamp(v.limit - v.value, 0.0, 0.05 * units_.length);
+    const double raise = round == 0 ? 0.0 : missed + kClearanceRaise * units_.length;
     switch (v.kind) {
       case certify::Kind::robot_clearance: {
         const auto b = static_cast<std::size_t>(v.other);
         at_fault[b] = 1;
-        demands_.pair_extra[a * count + b] += raise;
-        demands_.pair_extra[b * count + a] += raise;
+        groups.join(v.robot, v.other);
+        extra(a, b) += raise;
+        extra(b, a) += raise;
         break;
       }
+      case certify::Kind::moving_obstacle_clearance:
+        for (std::size_t body = count; body < bodies_.size(); ++body) extra(a, body) += missed + kClearanceRaise * units_.length;
+        break;
       case certify::Kind::obstacle_clearance:
-      case certify::Kind::bounds: demands_.obstacle_extra[a] += raise; break;
-      default: demands_.penalty_scale[a] *= kPenaltyRaise; break;
+      case certify::Kind::bounds:
+        for (double& b : tasks_[a].corridor.b) b -= missed + kClearanceRaise * units_.length;
+        break;
+      default: penalty_scale_[a] *= kPenaltyRaise; break;
     }
   }
-  std::vector<int> robots;
-  for (std::size_t k = 0; k < count; ++k)
-    if (at_fault[k]) robots.push_back(static_cast<int>(k));
-  return robots;
+  std::vector<Group> result = groups.all();
+  std::erase_if(result, [&](const Group& group) { return !at_fault[static_cast<std::size_t>(group.front())]; });
+  return result;
 }
 
 void Session::report(const char* stage, double fraction) const {

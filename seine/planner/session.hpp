@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "seine/base/workers.hpp"
@@ -12,27 +11,30 @@
 
 namespace seine::planner {
 
-/// One call of plan(): guess, joint optimisation, certificate, and repair of what the certificate refuses. Internal to the room.
+/// One call of plan(): guess, optimisation, certificate, and repair of what the certificate refuses (docs/optimiser.md). Internal to the room.
+///
+/// The optimisation goes from the independent to the joint: every car alone among the others' guesses; then the groups of cars that come close to
+/// each other, each group jointly; then whatever the certificate finds fault with, jointly again with more asked of it.
 class Session {
  public:
   Session(const world::Scenario& scenario, const Options& options);
   PlanResult run();
 
  private:
-  /// What is asked of the cars beyond the scenario, raised where the certificate found fault.
-  struct Demands {
-    std::vector<double> penalty_scale;   ///< per robot
-    std::vector<double> pair_extra;      ///< m, robots × robots
-    std::vector<double> obstacle_extra;  ///< m, per robot
-  };
+  using Group = std::vector<int>;  // robots, ascending
 
   bool guess(std::uint64_t attempt);
   void prepare();
-  void solve(const std::vector<int>& robots, bool from_guess);
-  trajopt::Task task_for(const std::vector<int>& robots) const;
+  void place_bodies();
+  void optimise();
+  void solve_groups(const std::vector<Group>& groups, bool from_guess);
+  void solve(const Group& group, bool from_guess, Workers& workers);
+  trajopt::Task task_for(const Group& group) const;
+  std::vector<Group> close_groups(double gap) const;
   bool certify();
   void polish();
-  std::vector<int> raise_demands();
+  std::vector<Group> raise_demands(int round);
+  double& extra(std::size_t robot, std::size_t body) { return extra_[robot * bodies_.size() + body]; }
   void report(const char* stage, double fraction) const;
   PlanResult finish();
 
@@ -42,13 +44,18 @@ class Session {
   Deadline deadline_;
   Workers workers_;
   world::StaticMap map_;
+  trajopt::Settings settings_;
   search::TeamGuess guess_;
-  std::vector<trajopt::RobotTask> tasks_;
-  std::vector<std::vector<double>> solution_;  // per robot: the optimiser's variables
-  Demands demands_;
+
   trajopt::Units units_;
   double tick_ = 0.05;  // s
   int ticks_ = 1;
+  std::vector<trajopt::RobotTask> tasks_;
+  std::vector<std::vector<double>> solution_;  // per robot: the optimiser's variables
+  std::vector<int> evaluations_;               // per robot: of the last group it was solved in
+  std::vector<trajopt::Body> bodies_;          // every robot as it moves now, then the moving obstacles' parts
+  std::vector<double> extra_;                  // m, robots × bodies: clearance asked on top of the scenario's
+  std::vector<double> penalty_scale_;          // per robot
   PlanResult result_;
 };
 

@@ -15,18 +15,8 @@ constexpr double kMaxStep = 1.0;
 
 std::vector<Shape> shapes_of(const Task& task, const Units& units) {
   std::vector<Shape> shapes;
-  for (const RobotTask& robot : task.robots) shapes.push_back(shape_of(robot.model.footprint, units.length));
+  for (const RobotTask* robot : task.robots) shapes.push_back(shape_of(robot->model.footprint, units.length));
   return shapes;
-}
-
-std::vector<Body> scaled_bodies(const Task& task, const Units& units, double slack) {
-  std::vector<Body> bodies = task.bodies;
-  for (Body& body : bodies) {
-    for (geom::Vec2& p : body.polygons) p *= 1.0 / units.length;
-    body.radius /= units.length;
-    body.clearance = body.clearance / units.length + slack;
-  }
-  return bodies;
 }
 
 std::vector<double> scaled(std::vector<double> values, double factor) {
@@ -49,13 +39,12 @@ Units units_of(std::span<const RobotTask> robots) {
 
 JointProblem::JointProblem(const Task& task, const Settings& settings, Workers& workers)
     : settings_(settings), workers_(workers), units_(task.units), offsets_{0},
-      proximity_(shapes_of(task, units_), scaled_bodies(task, units_, settings.clearance_slack),
-                 scaled(task.pair_extra, 1.0 / units_.length), task.robot_clearance / units_.length + settings.clearance_slack,
-                 task.ticks),
+      proximity_(shapes_of(task, units_), task.bodies, scaled(task.extra, 1.0 / units_.length),
+                 task.robot_clearance / units_.length + settings.clearance_slack, task.ticks),
       states_(task.robots.size() * static_cast<std::size_t>(task.ticks)), costs_(task.robots.size()),
       chunk_costs_(Proximity::kChunks), tick_(task.tick / units_.time), ticks_(task.ticks) {
-  for (const RobotTask& robot : task.robots) {
-    robots_.emplace_back(robot, units_, settings);
+  for (std::size_t k = 0; k < task.robots.size(); ++k) {
+    robots_.emplace_back(*task.robots[k], units_, settings, task.penalty_scale.empty() ? 1.0 : task.penalty_scale[k]);
     offsets_.push_back(offsets_.back() + robots_.back().variables());
   }
 }

@@ -12,15 +12,16 @@
 
 namespace seine::trajopt {
 
-/// Everything the joint problem is made of, SI units.
+/// Everything the joint problem is made of; SI units unless said otherwise.
 struct Task {
-  std::vector<RobotTask> robots;
-  std::vector<Body> bodies;              ///< polygons placed at ticks 0, tick, 2 tick, …
-  double robot_clearance = 0.05;         ///< m, between footprints
-  std::vector<double> pair_extra;        ///< m, robots × robots, added to a pair's clearance; may be empty
-  double tick = 0.05;                    ///< s, spacing of the common clock's samples
-  int ticks = 1;                         ///< the clock ends when everything has come to rest
-  Units units;                           ///< see units_of; the same for every subset of a team, so that variables can be carried over
+  std::vector<const RobotTask*> robots;   ///< must outlive the problem
+  std::vector<const Body*> bodies;        ///< in units; must outlive the problem
+  double robot_clearance = 0.05;          ///< m, between footprints
+  std::vector<double> extra;              ///< m, robots × (robots + bodies), added to their clearance; may be empty
+  std::vector<double> penalty_scale;      ///< per robot; may be empty
+  double tick = 0.05;                     ///< s, spacing of the common clock's samples
+  int ticks = 1;                          ///< the clock ends when everything has come to rest
+  Units units;                            ///< see units_of; the same for every subset of a team, so that variables can be carried over
 };
 
 /// The units to make a team dimensionless with: the median car length, and the time to drive it at that car's top speed.

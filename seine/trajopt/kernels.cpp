@@ -106,7 +106,7 @@ struct TimeLanes {
   int piece[kTimeLanes];
 };
 
-void scatter(const TimeLanes& lanes, int j, const CurveView& curve) {
+[[gnu::always_inline]] inline void scatter(const TimeLanes& lanes, int j, const CurveView& curve) {
   double* gx = curve.gcx + lanes.piece[j];
   double* gy = curve.gcy + lanes.piece[j];
   const double w = lanes.w[j];

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "seine/constraint/footprint_distance.hpp"
 #include "seine/constraint/inter_vehicle.hpp"
-#include "seine/constraint/moving_obstacle.hpp"
 #include "seine/math/hinge.hpp"
 
 namespace seine::trajopt {
@@ -28,35 +28,33 @@ Shape shape_of(std::span<const Vec2> footprint, double unit_length) {
   return shape;
 }
 
-Proximity::Proximity(std::vector<Shape> shapes, std::vector<Body> bodies, std::vector<double> pair_extra, double clearance,
+Proximity::Proximity(std::vector<Shape> shapes, std::vector<const Body*> bodies, std::vector<double> extra, double clearance,
                      int ticks)
-    : shapes_(std::move(shapes)), bodies_(std::move(bodies)), pair_extra_(std::move(pair_extra)), clearance_(clearance),
-      ticks_(ticks), near_(static_cast<std::size_t>(ticks)), needed_(shapes_.size()) {}
+    : shapes_(std::move(shapes)), bodies_(std::move(bodies)), extra_(std::move(extra)), clearance_(clearance), ticks_(ticks),
+      near_(static_cast<std::size_t>(ticks)), needed_(shapes_.size()) {}
 
 double Proximity::clearance_of(int a, int b) const {
-  if (b < 0) return bodies_[static_cast<std::size_t>(-1 - b)].clearance;
-  const std::size_t index = static_cast<std::size_t>(a) * shapes_.size() + static_cast<std::size_t>(b);
-  return clearance_ + (pair_extra_.empty() ? 0.0 : pair_extra_[index]);
+  const std::size_t cars = shapes_.size(), column = b < 0 ? cars + static_cast<std::size_t>(-1 - b) : static_cast<std::size_t>(b);
+  const double base = b < 0 ? bodies_[column - cars]->clearance : clearance_;
+  return base + (extra_.empty() ? 0.0 : extra_[static_cast<std::size_t>(a) * (cars + bodies_.size()) + column]);
 }
 
 // Distance beyond the wanted clearance, roughly and from below.
 double Proximity::gap(const Near& near, int tick, std::span<const ClockState> states) const {
   const auto index = [](auto i) { return static_cast<std::size_t>(i); };
+  const auto middle = [](const Shape& shape, Vec2 position, Vec2 direction) { return position + shape.offset * direction; };
   const Shape& shape_a = shapes_[index(near.a)];
   const ClockState& a = states[index(near.a * ticks_ + tick)];
-  const Vec2 middle_a = a.position + shape_a.offset * a.direction;
+  const Vec2 middle_a = middle(shape_a, a.position, a.direction);
+  const double margin = shape_a.reach + clearance_of(near.a, near.b);
   if (near.b < 0) {
-    const Body& body = bodies_[index(-1 - near.b)];
-    const std::span<const Vec2> polygon(&body.polygons[index(tick) * index(body.vertices)], index(body.vertices));
-    const geom::Box box = geom::bounding_box(polygon);
-    const Vec2 low = box.low - middle_a, high = middle_a - box.high;
-    const double outside = std::max({low.x, low.y, high.x, high.y});
-    return outside - shape_a.reach - body.radius - body.clearance;
+    const Body& body = *bodies_[index(-1 - near.b)];
+    const Placement& at = body.placements[std::min(index(tick), body.placements.size() - 1)];
+    return geom::norm(middle(body.shape, at.position, at.direction) - middle_a) - body.shape.reach - body.radius - margin;
   }
-  const Shape& shape_b = shapes_[index(near.b)];
   const ClockState& b = states[index(near.b * ticks_ + tick)];
-  const double apart = geom::norm(b.position + shape_b.offset * b.direction - middle_a);
-  return apart - shape_a.reach - shape_b.reach - clearance_of(near.a, near.b);
+  const Shape& shape_b = shapes_[index(near.b)];
+  return geom::norm(middle(shape_b, b.position, b.direction) - middle_a) - shape_b.reach - margin;
 }
 
 void Proximity::watch(const Near& near, int coarse, bool closely) {
@@ -97,45 +95,36 @@ double Proximity::evaluate(int chunk, std::span<ClockState> states, double weigh
 
 double Proximity::one(const Near& near, int tick, std::span<ClockState> states, double weight, double knee) const {
   const auto index = [](auto i) { return static_cast<std::size_t>(i); };
+  const bool given = near.b < 0;
+  const Body* body = given ? bodies_[index(-1 - near.b)] : nullptr;
   const Shape& shape_a = shapes_[index(near.a)];
+  const Shape& shape_b = given ? body->shape : shapes_[index(near.b)];
   ClockState& a = states[index(near.a * ticks_ + tick)];
-  const double wanted = clearance_of(near.a, near.b);
-  double slope;
-  if (near.b < 0) {
-    const Body& body = bodies_[index(-1 - near.b)];
-    const std::span<const Vec2> polygon(&body.polygons[index(tick) * index(body.vertices)], index(body.vertices));
-    Vec2 g_p, g_d;
-    const double gap =
-        constraint::moving_obstacle(a.position, a.direction, shape_a.footprint, polygon, body.radius, g_p, g_d);
-    if (gap >= wanted) return 0.0;
-    const double cost = weight * math::hinge(wanted - gap, knee, slope);
-    a.g_position -= weight * slope * g_p;
-    a.g_direction -= weight * slope * g_d;
-    return cost;
-  }
-  const Shape& shape_b = shapes_[index(near.b)];
-  ClockState& b = states[index(near.b * ticks_ + tick)];
-  const Vec2 apart = (b.position + shape_b.offset * b.direction) - (a.position + shape_a.offset * a.direction);
+  ClockState* b = given ? nullptr : &states[index(near.b * ticks_ + tick)];
+  const Placement at = given ? body->placements[std::min(index(tick), body->placements.size() - 1)]
+                             : Placement{b->position, b->direction};
+  const double wanted = clearance_of(near.a, near.b) + (given ? body->radius : 0.0);
+  const Vec2 apart = (at.position + shape_b.offset * at.direction) - (a.position + shape_a.offset * a.direction);
   const double reach = shape_a.reach + shape_b.reach + wanted;
   if (geom::squared_norm(apart) > reach * reach) return 0.0;
+
+  constraint::PairGradient g;
+  double gap;
   if (shape_a.rectangle && shape_b.rectangle) {
-    constraint::PairGradient g;
-    const double gap = constraint::inter_vehicle(
+    gap = constraint::inter_vehicle(
         {a.position, a.direction, shape_a.offset, shape_a.half_length, shape_a.half_width},
-        {b.position, b.direction, shape_b.offset, shape_b.half_length, shape_b.half_width}, g);
-    if (gap >= wanted) return 0.0;
-    const double cost = weight * math::hinge(wanted - gap, knee, slope);
-    a.g_position -= weight * slope * g.position_a, a.g_direction -= weight * slope * g.direction_a;
-    b.g_position -= weight * slope * g.position_b, b.g_direction -= weight * slope * g.direction_b;
-    return cost;
+        {at.position, at.direction, shape_b.offset, shape_b.half_length, shape_b.half_width}, g);
+  } else {
+    constraint::FootprintGradient f;
+    gap = constraint::footprint_distance(a.position, a.direction, shape_a.footprint, at.position, at.direction,
+                                         shape_b.footprint, f);
+    g = {f.position_a, f.direction_a, f.position_b, f.direction_b};
   }
-  constraint::FootprintGradient g;
-  const double gap = constraint::footprint_distance(a.position, a.direction, shape_a.footprint, b.position, b.direction,
-                                                    shape_b.footprint, g);
   if (gap >= wanted) return 0.0;
+  double slope;
   const double cost = weight * math::hinge(wanted - gap, knee, slope);
   a.g_position -= weight * slope * g.position_a, a.g_direction -= weight * slope * g.direction_a;
-  b.g_position -= weight * slope * g.position_b, b.g_direction -= weight * slope * g.direction_b;
+  if (b != nullptr) b->g_position -= weight * slope * g.position_b, b->g_direction -= weight * slope * g.direction_b;
   return cost;
 }
 

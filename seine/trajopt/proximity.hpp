@@ -8,17 +8,7 @@
 
 namespace seine::trajopt {
 
-/// A convex body whose motion is given: a moving obstacle, or a car that is not being planned. One placed polygon a tick, SI units on
-/// input; after the last tick it stays where it is.
-struct Body {
-  std::vector<geom::Vec2> polygons;  ///< ticks × vertices
-  int vertices = 0;
-  double radius = 0.0;               ///< of its rounding
-  double clearance = 0.0;            ///< to keep to it
-  bool robot = false;                ///< a car that is not being planned
-};
-
-/// A car's shape as the pair term needs it, in units.
+/// A convex shape as the distance terms need it, in units.
 struct Shape {
   std::vector<geom::Vec2> footprint;
   bool rectangle = false;            ///< symmetric about the x axis: the closed form serves
@@ -26,6 +16,19 @@ struct Shape {
   double reach = 0.0;                ///< radius of the circle about the rectangle's middle
 };
 Shape shape_of(std::span<const geom::Vec2> footprint, double unit_length);
+
+/// Where a body stands at one tick.
+struct Placement {
+  geom::Vec2 position, direction;  ///< direction is unit
+};
+
+/// A convex body whose motion is given: a moving obstacle, or a car that is not being planned. In units.
+struct Body {
+  Shape shape;
+  double radius = 0.0;                ///< of its rounding
+  double clearance = 0.0;             ///< to keep to it
+  std::vector<Placement> placements;  ///< one a tick; stays at the last
+};
 
 /// Distances between cars, and between cars and bodies, at the ticks of the common clock; only where they are near: at every tick where they
 /// are close, at every kStride-th where they might soon be. Partitioned by ticks, so that
@@ -37,7 +40,8 @@ class Proximity {
     int b;  ///< another car, or −1 − body
   };
 
-  Proximity(std::vector<Shape> shapes, std::vector<Body> bodies, std::vector<double> pair_extra, double clearance, int ticks);
+  /// @param bodies must outlive this  @param extra cars × (cars + bodies): what repair rounds add to a clearance; may be empty
+  Proximity(std::vector<Shape> shapes, std::vector<const Body*> bodies, std::vector<double> extra, double clearance, int ticks);
 
   /// Every kStride-th tick is a coarse one: who is near whom is judged there.
   static constexpr int kStride = 4;
@@ -58,8 +62,8 @@ class Proximity {
   void watch(const Near& near, int coarse, bool closely);
 
   std::vector<Shape> shapes_;
-  std::vector<Body> bodies_;
-  std::vector<double> pair_extra_;  // cars × cars: what repair rounds add to a pair's clearance; may be empty
+  std::vector<const Body*> bodies_;
+  std::vector<double> extra_;
   double clearance_;
   int ticks_;
   std::vector<std::vector<Near>> near_;    // per tick

@@ -45,7 +45,7 @@ geom::Pose2 scaled(geom::Pose2 pose, const Units& units) {
 
 }  // namespace
 
-RobotProblem::RobotProblem(const RobotTask& task, const Units& units, const Settings& settings)
+RobotProblem::RobotProblem(const RobotTask& task, const Units& units, const Settings& settings, double penalty_scale)
     : settings_(settings), units_(units), model_(scaled(task.model, units, settings.tighten)) {
   footprint_ = model_.footprint;
   reach_ = model_.reach();
@@ -57,8 +57,8 @@ RobotProblem::RobotProblem(const RobotTask& task, const Units& units, const Sett
   lay_out(task, units);
   double travel = 0.0;
   for (const SegmentGuess& guess : guess_) travel += guess.duration;
-  sample_weight_ = settings.penalty * task.penalty_scale * travel / (kTimeLanes * time_pieces_);
-  curve_weight_ = settings.penalty * task.penalty_scale * travel / (kCurveLanes * pieces_);
+  sample_weight_ = settings.penalty * penalty_scale * travel / (kTimeLanes * time_pieces_);
+  curve_weight_ = settings.penalty * penalty_scale * travel / (kCurveLanes * pieces_);
   for (auto* c : {&cx_, &cy_, &gcx_, &gcy_}) c->assign(static_cast<std::size_t>(6 * pieces_), 0.0);
   for (auto* c : {&cu_, &gcu_}) c->assign(static_cast<std::size_t>(6 * time_pieces_), 0.0);
 }

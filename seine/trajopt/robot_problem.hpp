@@ -30,7 +30,8 @@ struct ClockState {
 /// (logarithm; at a moving start the acceleration itself).
 class RobotProblem {
  public:
-  RobotProblem(const RobotTask& task, const Units& units, const Settings& settings);
+  /// @param penalty_scale raised by repair rounds where a limit was missed
+  RobotProblem(const RobotTask& task, const Units& units, const Settings& settings, double penalty_scale = 1.0);
 
   int variables() const { return variables_; }
   void initial(std::span<double> x) const;

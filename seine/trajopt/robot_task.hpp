@@ -33,7 +33,6 @@ struct RobotTask {
   std::vector<SegmentGuess> segments;
   /// Half-planes at every curve sample: kCurveLanes a piece, pieces of all segments in a row.
   corridor::Corridor corridor;
-  double penalty_scale = 1.0;  ///< raised by repair rounds where a limit was missed
 };
 
 /// Poses at the curve samples of a guess, in the order that RobotTask::corridor wants them: corridors are built around these.

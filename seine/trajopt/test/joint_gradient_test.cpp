@@ -32,9 +32,15 @@ SegmentGuess wavy(Rng& rng, geom::Pose2 from, int gear, double length, double wa
 }
 
 // Three cars that cross, with waits, a cusp, a moving start, corridors, a moving body and a steering-rate limit: every term is active.
-Task busy_task(std::uint64_t seed, bool rectangles) {
-  Rng rng(seed);
+struct Busy {
+  std::vector<RobotTask> robots;
+  Body body;
   Task task;
+};
+
+void make_busy(std::uint64_t seed, bool rectangles, Busy& busy) {
+  Rng rng(seed);
+  Task& task = busy.task;
   for (int k = 0; k < 3; ++k) {
     RobotTask robot;
     robot.model.footprint = vehicle::rectangle_footprint(0.6, 0.4, 0.1);
@@ -60,21 +66,23 @@ Task busy_task(std::uint64_t seed, bool rectangles) {
         robot.corridor.b.push_back(geom::dot(n, pose.position()) + 0.15);
         robot.corridor.begin.push_back(static_cast<int>(robot.corridor.nx.size()));
       }
-    task.robots.push_back(std::move(robot));
+    busy.robots.push_back(std::move(robot));
   }
+  for (const RobotTask& robot : busy.robots) task.robots.push_back(&robot);
+  task.units = units_of(busy.robots);
   task.ticks = 100;
-  Body body;
-  body.vertices = 3, body.radius = 0.1, body.clearance = 0.1;
-  for (int tick = 0; tick < task.ticks; ++tick)
-    for (const Vec2 v : {Vec2{0.0, 0.0}, Vec2{0.5, 0.1}, Vec2{0.1, 0.5}}) body.polygons.push_back(v + Vec2{0.3, 0.01 * tick});
-  task.bodies.push_back(std::move(body));
-  task.units = units_of(task.robots);
-  return task;
+  Body& body = busy.body;
+  body.shape = shape_of(std::vector<Vec2>{{0.0, 0.0}, {0.5, 0.1}, {0.1, 0.5}}, task.units.length);
+  body.radius = 0.1, body.clearance = 0.1;
+  for (int tick = 0; tick < task.ticks; ++tick) body.placements.push_back({{0.5, 0.02 * tick}, geom::unit(0.01 * tick)});
+  task.bodies.push_back(&body);
 }
 
 double worst_error(std::uint64_t seed, bool rectangles, double knee, int& kinks) {
   Workers workers(2);
-  JointProblem problem(busy_task(seed, rectangles), Settings{}, workers);
+  Busy busy;
+  make_busy(seed, rectangles, busy);
+  JointProblem problem(busy.task, Settings{}, workers);
   std::vector<double> x = problem.initial(), g(x.size()), unused(x.size());
   problem.refresh(x);
   problem.evaluate(x, g, knee);
@@ -106,7 +114,9 @@ TEST(JointProblem, IsTheSameForAnyNumberOfThreads) {
   std::vector<double> reference;
   for (const int threads : {1, 2, 3}) {
     Workers workers(threads);
-    JointProblem problem(busy_task(3, true), Settings{}, workers);
+    Busy busy;
+    make_busy(3, true, busy);
+    JointProblem problem(busy.task, Settings{}, workers);
     std::vector<double> x = problem.initial();
     problem.solve(x, Deadline());
     if (reference.empty()) reference = x;

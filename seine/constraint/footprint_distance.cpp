@@ -1,4 +1,4 @@
-#include "seine/constraint/moving_obstacle.hpp"
+#include "seine/constraint/footprint_distance.hpp"
 
 #include <array>
 
@@ -6,7 +6,7 @@ namespace seine::constraint {
 namespace {
 
 using geom::Vec2;
-constexpr std::size_t kMaxVertices = 32;
+constexpr std::size_t kMaxVertices = 64;
 
 // Footprint in the world; the result points into `storage`.
 std::span<const Vec2> place(Vec2 p, Vec2 d, std::span<const Vec2> body, std::array<Vec2, kMaxVertices>& storage) {
@@ -23,16 +23,6 @@ Vec2 direction_gradient(Vec2 normal, Vec2 witness, Vec2 p, Vec2 d) {
 }
 
 }  // namespace
-
-double moving_obstacle(Vec2 p, Vec2 d, std::span<const Vec2> footprint, std::span<const Vec2> body, double radius,
-                       Vec2& g_position, Vec2& g_direction) {
-  std::array<Vec2, kMaxVertices> storage;
-  const geom::Separation s = geom::separation(place(p, d, footprint, storage), body);
-  // Moving the witness on the car by w changes the distance by −normal·w (envelope theorem).
-  g_position = -s.normal;
-  g_direction = direction_gradient(-s.normal, s.point_a, p, d);
-  return s.distance - radius;
-}
 
 double footprint_distance(Vec2 p_a, Vec2 d_a, std::span<const Vec2> footprint_a, Vec2 p_b, Vec2 d_b,
                           std::span<const Vec2> footprint_b, FootprintGradient& gradient) {
