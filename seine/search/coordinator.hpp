@@ -58,6 +58,11 @@ class Coordinator {
   int robots() const { return static_cast<int>(cars_.size()); }
   /// Adds a path for the robot; false when it cannot be driven alone.
   bool add_way(int robot, Path path);
+  /// Ways may be dropped while no placement uses them.
+  void drop_first_way(int robot) {
+    auto& ways = cars_[static_cast<std::size_t>(robot)].ways;
+    ways.erase(ways.begin());
+  }
   void drop_last_way(int robot) { cars_[static_cast<std::size_t>(robot)].ways.pop_back(); }
   const std::vector<std::unique_ptr<Way>>& ways(int robot) const {
     return cars_[static_cast<std::size_t>(robot)].ways;

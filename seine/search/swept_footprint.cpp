@@ -50,9 +50,10 @@ Sat separate(std::span<const Vec2> a, std::span<const Vec2> b, double clearance)
   Vec2 from = a.back();
   for (const Vec2 to : a) {
     const Vec2 normal{to.y - from.y, from.x - to.x};
+    const double length2 = squared_norm(normal);
+    if (length2 < kTouch * kTouch) continue;  // corners fall together where a footprint is not grown
     double gap = dot(normal, b[0] - from);
     for (std::size_t i = 1; i < b.size(); ++i) gap = std::min(gap, dot(normal, b[i] - from));
-    const double length2 = squared_norm(normal);
     if (gap >= 0.0 && gap * gap >= clear * clear * length2) return Sat::kApart;
     if (gap < 0.0 && clear == 0.0 && gap * gap <= kTouch * kTouch * length2) return Sat::kApart;
     if (gap > 0.0) result = Sat::kNear;

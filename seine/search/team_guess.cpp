@@ -6,9 +6,11 @@
 #include <memory>
 #include <numeric>
 
+#include "seine/base/rng.hpp"
 #include "seine/base/workers.hpp"
 #include "seine/search/coordinator.hpp"
 #include "seine/search/path_planner.hpp"
+#include "seine/search/precedence.hpp"
 #include "seine/search/roundabout.hpp"
 #include "seine/search/side_step.hpp"
 #include "seine/search/team_search.hpp"
@@ -39,6 +41,8 @@ class Guess {
   TeamSearch::Sources sources() const;
   Attempt new_attempt() const;
   bool find_first_ways(Attempt& attempt);
+  void leave_tried_ways(Attempt& attempt) const;
+  std::vector<int> first_order(const Coordinator& coordinator) const;
   void coordinate(Attempt& attempt);
   std::optional<Attempt> go_round(const Attempt& straight);
   Attempt by_ring(const Attempt& straight, const Crossing& crossing, double radius);
@@ -65,13 +69,14 @@ Guess::Guess(const world::Scenario& scenario, const world::StaticMap& map, const
 std::optional<Path> Guess::find_path(int robot, std::span<const Bump> bumps,
                                      std::span<const std::vector<geom::Vec2>> parked, int expansions) const {
   const world::Robot& who = scenario_.robots[idx(robot)];
-  return planners_[idx(who.model)].plan(who.start, who.goal,
-                                        {.max_expansions = expansions,
-                                         .clearance = scenario_.margins.obstacle,
-                                         .bumps = bumps,
-                                         .parked = parked,
-                                         .parked_clearance = scenario_.margins.robot,
-                                         .deadline = options_.deadline});
+  return planners_[idx(who.model)].plan(
+      who.start, who.goal,
+      {.max_expansions = expansions,
+       .clearance = scenario_.margins.obstacle,
+       .bumps = bumps,
+       .parked = parked,
+       .parked_clearance = scenario_.margins.robot + options_.extra_robot_clearance,
+       .deadline = options_.deadline});
 }
 
 TeamSearch::Sources Guess::sources() const {
@@ -110,9 +115,40 @@ bool Guess::find_first_ways(Attempt& attempt) {
   return guess_.reason.empty();
 }
 
+// A repair wants something else: some of the robots that were tried before get a way that bends off their
+// last one.
+void Guess::leave_tried_ways(Attempt& attempt) const {
+  if (options_.avoid == nullptr) return;
+  Rng rng(options_.seed);
+  for (std::size_t i = 0; i < options_.avoid->size(); ++i) {
+    const int robot = static_cast<int>(i);
+    const std::vector<TimedPath>& tried = (*options_.avoid)[i];
+    constexpr double kShare = 0.6;  // if everybody changes sides they meet again
+    if (tried.empty() || attempt.coordinator->fixed(robot) || rng.uniform() > kShare) continue;
+    const double length = scenario_.model_of(scenario_.robots[i]).length();
+    std::vector<Bump> bumps;
+    for (const TimedPath& motion : tried) {
+      const geom::Pose2 there = pose_at(motion.path, rng.uniform(0.25, 0.75) * motion.path.length());
+      bumps.push_back({there.position(), options_.team.bump_lengths * length, options_.team.bump_weight});
+    }
+    std::optional<Path> path = find_path(robot, bumps, {}, options_.team.detour_expansions);
+    if (path && attempt.coordinator->add_way(robot, std::move(*path)))
+      attempt.coordinator->drop_first_way(robot);
+  }
+}
+
+// Empty (the usual order) for the first guess of all; shuffled for every other.
+std::vector<int> Guess::first_order(const Coordinator& coordinator) const {
+  if (options_.seed == 0 && options_.avoid == nullptr) return {};
+  Rng rng(options_.seed);
+  std::vector<double> keys;
+  for (int i = 0; i < coordinator.robots(); ++i) keys.push_back(coordinator.alone(i) * rng.uniform(0.5, 1.5));
+  return Precedence(coordinator).order(keys);
+}
+
 void Guess::coordinate(Attempt& attempt) {
   TeamSearch search(*attempt.coordinator, sources(), options_.team, options_.seed);
-  attempt.complete = search.solve(attempt.state, options_.deadline);
+  attempt.complete = search.solve(attempt.state, options_.deadline, first_order(*attempt.coordinator));
   if (attempt.complete) search.improve(attempt.state, options_.deadline);
   guess_.effort = search.effort();
 }
@@ -187,6 +223,7 @@ TeamGuess Guess::run() {
     guess_.alone.push_back(attempt.coordinator->alone(i));
   Stopwatch coordination;
   if (all) {
+    leave_tried_ways(attempt);
     if (std::optional<Attempt> round = go_round(attempt))
       attempt = std::move(*round);
     else
@@ -201,7 +238,17 @@ TeamGuess Guess::run() {
 
 TeamGuess guess_team(const world::Scenario& scenario, const world::StaticMap& map,
                      const GuessOptions& options) {
-  return Guess(scenario, map, options).run();
+  TeamGuess guess = Guess(scenario, map, options).run();
+  guess.extra_robot_clearance = options.extra_robot_clearance;
+  // Cars that start nose to nose may not be able to part with more room than the margin.
+  for (const double share : {0.5, 0.0}) {
+    if (guess.complete || options.extra_robot_clearance <= 0.0 || options.deadline.expired()) break;
+    GuessOptions less = options;
+    less.extra_robot_clearance = share * options.extra_robot_clearance;
+    guess = Guess(scenario, map, less).run();
+    guess.extra_robot_clearance = less.extra_robot_clearance;
+  }
+  return guess;
 }
 
 }  // namespace seine::search

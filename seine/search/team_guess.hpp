@@ -15,16 +15,17 @@
 namespace seine::search {
 
 struct GuessOptions {
-  Deadline deadline;
+  Deadline deadline{};
   int threads = 1;
   std::uint64_t seed = 0;
-  double extra_robot_clearance = 0.0;  ///< m, on top of the scenario's margin: a repair asks for more room
+  double extra_robot_clearance =
+      0.0;  ///< m, wished for on top of the scenario's margin: a repair asks for more room
   const std::vector<std::optional<TimedPath>>* fixed =
       nullptr;  ///< robots that already have their motion and keep it (one entry a robot)
   const std::vector<std::vector<TimedPath>>* avoid =
-      nullptr;             ///< per robot, guesses tried before that a repair should not repeat (may be empty)
-  LatticeOptions lattice;  ///< how much of the limits the speed profiles use
-  TeamSearchOptions team;  ///< how much is tried
+      nullptr;  ///< per robot, guesses tried before that a repair should not repeat (may be empty)
+  LatticeOptions lattice{};  ///< how much of the limits the speed profiles use
+  TeamSearchOptions team{};  ///< how much is tried
 };
 
 struct TeamGuess {
@@ -36,7 +37,8 @@ struct TeamGuess {
   struct {
     double field = 0, paths = 0, coordinate = 0;
   } seconds;
-  TeamSearch::Effort effort;  ///< of the coordination
+  double extra_robot_clearance = 0.0;  ///< m, what was kept of the wish: all, half, or nothing of it
+  TeamSearch::Effort effort;           ///< of the coordination
 };
 
 /// The coordinated guess for the whole team: who drives where, when, and who goes first (docs/front-end.md).
