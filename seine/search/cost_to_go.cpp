@@ -21,24 +21,26 @@ std::uint32_t open_mark(std::uint32_t cost) {
 
 }  // namespace
 
-CostToGo::CostToGo(const PointDistances& distances, double radius, geom::Vec2 goal)
-    : distances_(&distances),
-      radius_(radius),
-      half_diagonal_(distances.cell() * std::sqrt(0.5)),
-      page_columns_((static_cast<std::uint32_t>(distances.columns()) + kPage - 1) / kPage) {
-  pages_.resize(page_columns_ * ((static_cast<std::uint32_t>(distances.rows()) + kPage - 1) / kPage));
+CostToGo::CostToGo(const DiscWay& way, geom::Vec2 goal)
+    : way_(way),
+      distances_(way.distances),
+      half_diagonal_(distances_->cell() * std::sqrt(0.5)),
+      page_columns_((static_cast<std::uint32_t>(distances_->columns()) + kPage - 1) / kPage) {
+  pages_.resize(page_columns_ * ((static_cast<std::uint32_t>(distances_->rows()) + kPage - 1) / kPage));
   bytes_ = pages_.size() * sizeof(pages_[0]);
-  const Cell cell{distances.column(goal.x), distances.row(goal.y)};
+  const Cell cell{distances_->column(goal.x), distances_->row(goal.y)};
   focus_ = cell;
-  if (!distances.inside(cell.column, cell.row)) return;
+  if (!distances_->inside(cell.column, cell.row)) return;
   mark(cell.column, cell.row) = open_mark(0);
   push(cell, 0);
 }
 
-CostToGo::Ground CostToGo::ground(int column, int row) const {
+/// Halves of a step's cost that ground costs; 0 where it is blocked.
+std::uint32_t CostToGo::price(int column, int row) const {
   const double distance = distances_->at(column, row);
-  if (distance >= radius_) return Ground::open;
-  return distance + 1e-5 < radius_ - half_diagonal_ ? Ground::blocked : Ground::tight;
+  if (distance + 1e-5 < way_.radius - half_diagonal_) return 0;
+  const std::uint32_t just_fits = distance < way_.radius ? 3 : 2;
+  return distance < way_.comfort ? just_fits * static_cast<std::uint32_t>(way_.discomfort) : just_fits;
 }
 
 void CostToGo::add(std::unique_ptr<std::uint32_t[]>& page) {
@@ -90,10 +92,9 @@ bool CostToGo::expand_one() {
       if ((dx == 0 && dy == 0) || !distances_->inside(column, row)) continue;
       std::uint32_t& there = mark(column, row);
       if ((there & kClosed) != 0) continue;
-      const Ground kind = ground(column, row);
-      if (kind == Ground::blocked) continue;
-      std::uint32_t step = dx != 0 && dy != 0 ? kDiagonal : kStraight;
-      if (kind == Ground::tight) step += step / 2;
+      const std::uint32_t halves = price(column, row);
+      if (halves == 0) continue;
+      const std::uint32_t step = (dx != 0 && dy != 0 ? kDiagonal : kStraight) * halves / 2;
       if (there != 0 && cost_of(there) <= cost + step) continue;
       there = open_mark(cost + step);
       push({column, row}, cost + step);

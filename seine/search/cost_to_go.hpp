@@ -9,6 +9,15 @@
 
 namespace seine::search {
 
+/// How a disc goes over the ground.
+struct DiscWay {
+  const PointDistances* distances = nullptr;
+  double radius = 0.0;   ///< m, disc plus clearance; distances->cell() ≤ 0.7 radius keeps walls tight
+  double comfort = 0.0;  ///< m: where there is less distance than this …
+  int discomfort = 1;    ///< … ground costs so many times as much
+  friend bool operator==(const DiscWay&, const DiscWay&) = default;
+};
+
 /// Shortest way of a disc to one goal point on the cells of a PointDistances, 8-connected: the heuristic of a
 /// car whose footprint contains the disc. Works backwards from the goal, only as far as it is asked (A*
 /// towards a focus, resumable; values do not depend on the order of questions). A cell is blocked only when
@@ -16,8 +25,7 @@ namespace seine::search {
 /// over: where this finds no way there is none. Not thread-safe.
 class CostToGo {
  public:
-  /// @param radius  m, disc plus clearance; distances.cell() ≤ 0.7 radius keeps walls tight
-  CostToGo(const PointDistances& distances, double radius, geom::Vec2 goal);
+  CostToGo(const DiscWay& way, geom::Vec2 goal);
 
   /// Looks in the direction of `point` first from now on.
   void focus(geom::Vec2 point);
@@ -29,13 +37,12 @@ class CostToGo {
  private:
   static constexpr std::uint32_t kPage = 32;
   // Costs are whole numbers (12 a straight step, 17 a diagonal one, half as much again where the disc only
-  // just fits), so that equal ways tie exactly and the values are the same in any order. A page holds 16 × 16
+  // just fits), so that equal ways tie exactly and the values are the same in any order. A page holds 32 × 32
   // cells: 0 = never seen, else 2·cost + closed + 2.
   struct Cell {
     std::int32_t column, row;
   };
-  enum class Ground : std::uint8_t { blocked, tight, open };
-  Ground ground(int column, int row) const;
+  std::uint32_t price(int column, int row) const;
   std::uint32_t& mark(int column, int row) {
     const auto c = static_cast<std::uint32_t>(column), r = static_cast<std::uint32_t>(row);
     auto& page = pages_[(r / kPage) * page_columns_ + c / kPage];
@@ -47,8 +54,8 @@ class CostToGo {
   void push(Cell cell, std::uint32_t cost);
   bool expand_one();
 
+  DiscWay way_;
   const PointDistances* distances_;
-  double radius_;
   double half_diagonal_;
   Cell focus_{};
   std::uint32_t page_columns_;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "seine/geom/convex.hpp"
+#include "seine/search/cost_to_go_cache.hpp"
 #include "seine/search/hybrid_astar.hpp"
 
 namespace seine::search {
@@ -20,8 +21,18 @@ constexpr double kDiscCell =
     0.35;  // of the car's width: the side of a heuristic cell, small enough that walls stay tight
 
 constexpr double kFineCell = 0.12;        // the same where it is in doubt whether a gap is wide enough
+constexpr double kComfort = 0.3;          // car widths on either side that a wary way likes to have
+constexpr int kDiscomfort = 10;           // times the cost where it has not
 constexpr double kReverse = 1.5;          // what a metre backwards costs
 constexpr double kSteeringChange = 0.05;  // turning radii, from straight to the tightest turn
+
+/// What the heuristic of a rung says about gaps.
+enum class Gaps {
+  quick,  // on the coarse grid: a gap too narrow by a fifth of a car's width may look open
+  wary,   // on the fine grid; gaps only just wide enough for the car are dear, which pays when they turn out
+          // to be too narrow
+  exact,  // on the fine grid
+};
 
 /// One rung of the ladder of searches: from coarse and quick to fine and patient.
 struct Rung {
@@ -34,111 +45,18 @@ struct Rung {
   double slack;        // of the full slack
   double gear_change;  // turning radii
   double share;        // of the expansions allowed
-  bool in_doubt;       // heuristic on the fine grid, search from the tighter end
+  Gaps gaps;
+  bool from_tighter_end;  // the way out of a tight place is easier to find than the way in
 };
 constexpr Rung kLadder[] = {
     // Open ground: a dozen expansions where the straight shot is blocked.
-    {.radius = 1.1,
-     .step = 0.8,
-     .min_step = 0.8,
-     .cell = 0.45,
-     .headings = 24,
-     .gears_apart = false,
-     .forward = 5,
-     .backward = 3,
-     .slack = 1.0,
-     .gear_change = 2.0,
-     .share = 0.03,
-     .in_doubt = false},
+    {1.1, 0.8, 0.8, 0.45, 24, false, 5, 3, 1.0, 2.0, 0.02, Gaps::quick, false},
+    // Buildings where the shortest way turns out to be too narrow.
+    {1.1, 0.8, 0.8, 0.45, 24, false, 5, 3, 1.0, 2.0, 0.03, Gaps::wary, false},
     // Parking, narrow doors.
-    {.radius = 1.02,
-     .step = 0.4,
-     .min_step = 0.4,
-     .cell = 0.2,
-     .headings = 36,
-     .gears_apart = false,
-     .forward = 5,
-     .backward = 5,
-     .slack = 0.2,
-     .gear_change = 0.5,
-     .share = 0.3,
-     .in_doubt = true},
+    {1.02, 0.4, 0.4, 0.2, 36, false, 5, 5, 0.2, 0.5, 0.3, Gaps::exact, true},
     // Slots that take a dozen moves of a few centimetres.
-    {.radius = 1.0,
-     .step = 0.2,
-     .min_step = 0.002,
-     .cell = 0.006,
-     .headings = 500,
-     .gears_apart = true,
-     .forward = 3,
-     .backward = 3,
-     .slack = 0.02,
-     .gear_change = 0.05,
-     .share = 1.0,
-     .in_doubt = true},
-};
-
-/// Costs to go that were worked out before, for whoever comes with the same goal; each is lent to one search
-/// at a time.
-class CostToGoCache {
- public:
-  std::unique_ptr<CostToGo> borrow(const PointDistances& distances, double radius, geom::Vec2 goal) {
-    const Key key{&distances, distances.column(goal.x), distances.row(goal.y), radius};
-    {
-      const std::lock_guard lock(mutex_);
-      const auto found =
-          std::find_if(kept_.rbegin(), kept_.rend(), [&](const auto& entry) { return entry.first == key; });
-      if (found != kept_.rend()) {
-        auto lent = std::move(found->second);
-        kept_.erase(std::next(found).base());
-        return lent;
-      }
-    }
-    return std::make_unique<CostToGo>(distances, radius, goal);
-  }
-  void give_back(const PointDistances& distances, double radius, geom::Vec2 goal,
-                 std::unique_ptr<CostToGo> used) {
-    constexpr std::size_t kMaxKept = 256, kMaxBytes = 64u << 20;
-    const std::lock_guard lock(mutex_);
-    kept_.emplace_back(Key{&distances, distances.column(goal.x), distances.row(goal.y), radius},
-                       std::move(used));
-    std::size_t bytes = 0, first = kept_.size();
-    while (first > 0 && kept_.size() - first < kMaxKept && bytes < kMaxBytes)
-      bytes += kept_[--first].second->bytes();
-    kept_.erase(kept_.begin(), kept_.begin() + static_cast<std::ptrdiff_t>(first));
-  }
-
- private:
-  struct Key {
-    const PointDistances* distances;
-    int column, row;
-    double radius;
-    friend bool operator==(const Key&, const Key&) = default;
-  };
-  std::mutex mutex_;
-  std::vector<std::pair<Key, std::unique_ptr<CostToGo>>> kept_;  // the longest unused first
-};
-
-/// A borrowed cost to go that finds its way back.
-class Loan {
- public:
-  Loan(CostToGoCache& cache, const PointDistances& distances, double radius, geom::Vec2 goal)
-      : cache_(cache),
-        distances_(distances),
-        radius_(radius),
-        goal_(goal),
-        to_go_(cache.borrow(distances, radius, goal)) {}
-  ~Loan() { cache_.give_back(distances_, radius_, goal_, std::move(to_go_)); }
-  Loan(const Loan&) = delete;
-  Loan& operator=(const Loan&) = delete;
-  CostToGo* get() const { return to_go_.get(); }
-
- private:
-  CostToGoCache& cache_;
-  const PointDistances& distances_;
-  double radius_;
-  geom::Vec2 goal_;
-  std::unique_ptr<CostToGo> to_go_;
+    {1.0, 0.2, 0.002, 0.006, 500, true, 3, 3, 0.02, 0.05, 1.0, Gaps::exact, true},
 };
 
 }  // namespace
@@ -158,6 +76,7 @@ struct PathPlanner::Impl {
   LatticeResult climb(const Rung& rung, const FootprintChecker& checker, const Route& ends, bool backwards,
                       const PathOptions& options, int expansions);
 
+  DiscWay way(Gaps gaps, double clearance);
   /// The grid of the heuristic where passages are in doubt, made when first needed.
   const PointDistances& fine() {
     std::call_once(fine_made, [this] {
@@ -196,13 +115,23 @@ FootprintChecker PathPlanner::Impl::checker(const geom::Pose2& start, const geom
   return checker;
 }
 
+DiscWay PathPlanner::Impl::way(Gaps gaps, double clearance) {
+  DiscWay way;
+  way.distances = gaps == Gaps::quick ? &distances : &fine();
+  way.radius = cover.widest().inner + clearance;
+  if (gaps == Gaps::wary) {
+    way.comfort = way.radius + kComfort * model.width();
+    way.discomfort = kDiscomfort;
+  }
+  return way;
+}
+
 /// One rung: the way between the ends of `ends`; when `backwards`, as the car will drive it the other way
 /// round.
 LatticeResult PathPlanner::Impl::climb(const Rung& rung, const FootprintChecker& checker, const Route& ends,
                                        bool backwards, const PathOptions& options, int expansions) {
   const double radius = rung.radius / model.max_curvature();
-  const double disc = cover.widest().inner + options.clearance;
-  const Loan to_go(cache, rung.in_doubt ? fine() : distances, disc, ends.goal * reference);
+  const CostToGoCache::Loan to_go(cache, way(rung.gaps, options.clearance), ends.goal * reference);
   LatticeProblem problem;
   problem.start = ends.start;
   problem.goal = ends.goal;
@@ -247,7 +176,7 @@ std::optional<Path> PathPlanner::Impl::plan(const geom::Pose2& start, const geom
     checker.ease_slack(start.position(), kEaseRadius * length, std::min(slack, 0.5 * room_start));
     checker.ease_slack(goal.position(), kEaseRadius * length, std::min(slack, 0.5 * room_goal));
     // The way out of a tight place is easier to find than the way in: search from there.
-    const bool backwards = rung.in_doubt && room_goal < room_start;
+    const bool backwards = rung.from_tighter_end && room_goal < room_start;
     const int expansions =
         std::min(left, std::max(150, static_cast<int>(rung.share * options.max_expansions)));
     LatticeResult result = climb(rung, checker, backwards ? Route{goal, start, {}} : Route{start, goal, {}},

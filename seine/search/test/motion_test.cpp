@@ -122,9 +122,9 @@ TEST(CostToGo, IsDijkstraInAnyOrderOfQuestions) {
   const Scene scene(kSeed);
   Rng rng(kSeed);
   const geom::Vec2 goal = scene.scenario.robots[0].goal.position();
-  CostToGo all(scene.distances, 0.25, goal);
+  CostToGo all({&scene.distances, 0.25}, goal);
   // One that is asked corner to corner sees everything; another is asked at random with changing focus.
-  CostToGo some(scene.distances, 0.25, goal);
+  CostToGo some({&scene.distances, 0.25}, goal);
   for (int i = 0; i < 500; ++i) {
     const geom::Vec2 p = scene.somewhere(rng);
     if (i % 50 == 0) some.focus(scene.somewhere(rng));
@@ -143,7 +143,7 @@ TEST(CostToGo, DoesNotPassThinWalls) {
   scenario.obstacles = {wall};
   const world::StaticMap map(scenario);
   const PointDistances distances(map, 0.35 * 0.4, 0.9);
-  CostToGo to_go(distances, 0.2, {5, 8});
+  CostToGo to_go({&distances, 0.2}, {5, 8});
   EXPECT_TRUE(std::isinf(to_go({5, 2})));
   EXPECT_NEAR(to_go({1, 8}), 4.0, 0.2);
 }
