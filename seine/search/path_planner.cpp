@@ -21,6 +21,7 @@ constexpr double kDiscCell =
     0.35;  // of the car's width: the side of a heuristic cell, small enough that walls stay tight
 
 constexpr double kFineCell = 0.12;        // the same where it is in doubt whether a gap is wide enough
+constexpr double kTightSlot = 0.1;        // car lengths of room: an end with more is no slot
 constexpr double kComfort = 0.3;          // car widths on either side that a wary way likes to have
 constexpr int kDiscomfort = 10;           // times the cost where it has not
 constexpr double kReverse = 1.5;          // what a metre backwards costs
@@ -56,7 +57,9 @@ constexpr Rung kLadder[] = {
     // Parking, narrow doors.
     {1.02, 0.4, 0.4, 0.2, 36, false, 5, 5, 0.2, 0.5, 0.3, Gaps::exact, true},
     // Slots that take a dozen moves of a few centimetres.
-    {1.0, 0.2, 0.002, 0.006, 500, true, 3, 3, 0.02, 0.05, 1.0, Gaps::exact, true},
+    {1.0, 0.2, 0.002, 0.006, 500, true, 3, 3, 0.02, 0.05, 0.6, Gaps::exact, true},
+    // The second once more, for as long as it takes.
+    {1.1, 0.8, 0.8, 0.45, 24, false, 5, 3, 1.0, 2.0, 1.0, Gaps::wary, false},
 };
 
 }  // namespace
@@ -170,6 +173,7 @@ std::optional<Path> PathPlanner::Impl::plan(const geom::Pose2& start, const geom
   int left = options.max_expansions;
   for (const Rung& rung : kLadder) {
     if (left <= 0 || options.deadline.expired()) break;
+    if (rung.gears_apart && std::min(room_start, room_goal) > kTightSlot * length) continue;
     FootprintChecker checker = free;
     const double slack = rung.slack * kSlack * length;
     checker.set_slack(slack);
