@@ -79,10 +79,80 @@ std::vector<Stretch> stretches_of(const TimedPath& guess, const vehicle::Model& 
   return stretches;
 }
 
+// When the car first has driven s.
+double time_at(const TimedPath& guess, double s) {
+  for (std::size_t i = 0; i < guess.profile.size(); ++i)
+    if (guess.profile[i].s >= s - 1e-9) return guess.profile[i].t;
+  return guess.arrival();
+}
+
 double curvature_at(const Path& path, double s) {
   const auto next = std::upper_bound(path.points.begin(), path.points.end(), s,
                                      [](double value, const PathPoint& point) { return value < point.s; });
   return next == path.points.begin() ? path.points.front().curvature : std::prev(next)->curvature;
+}
+
+// Σ |Δheading| and Σ |Δφ| (steering angle) along a stretch.
+struct Turning {
+  double heading = 0.0, steering = 0.0;
+};
+
+Turning turning_of(const Path& path, const Stretch& stretch, double wheelbase) {
+  Turning turning;
+  const PathPoint* last = nullptr;
+  for (const PathPoint& point : path.points) {
+    if (point.s < stretch.from - 1e-9 || point.s > stretch.to + 1e-9) continue;
+    if (last != nullptr) {
+      turning.heading += std::abs(geom::wrap_angle(point.pose.heading - last->pose.heading));
+      turning.steering += std::abs(std::atan(wheelbase * point.curvature) - std::atan(wheelbase * last->curvature));
+    }
+    last = &point;
+  }
+  return turning;
+}
+
+// Stretches of a few centimetres come from exact Reeds-Shepp ends. Left out, their neighbours (of one gear) become one stretch, and the spline takes
+// up the difference.
+TimedPath without_tiny_stretches(const TimedPath& guess, double shortest) {
+  const auto gears = gear_changes(guess.path);
+  TimedPath result;
+  double cut_s = 0.0, cut_t = 0.0;
+  std::vector<std::pair<double, double>> cuts;  // [from, to] of s
+  for (std::size_t g = 0; g < gears.size(); ++g) {
+    const double to = g + 1 < gears.size() ? gears[g + 1].first : guess.path.length();
+    if (to - gears[g].first < shortest) cuts.emplace_back(gears[g].first, to);
+  }
+  if (cuts.empty() || cuts.size() == gears.size()) return guess;
+  const auto cut_at = [&](double s) {
+    for (const auto& [from, to] : cuts)
+      if (s > from + 1e-9 && s < to - 1e-9) return true;
+    return false;
+  };
+  const auto removed_before = [&](double s) {
+    double sum = 0.0;
+    for (const auto& [from, to] : cuts)
+      if (s >= to - 1e-9) sum += to - from;
+    return sum;
+  };
+  for (const PathPoint& point : guess.path.points) {
+    if (cut_at(point.s)) continue;
+    bool tiny = false;  // the two end points that carry the tiny stretch's own gear
+    for (const auto& [from, to] : cuts)
+      for (const auto& [s, gear] : gears) tiny = tiny || (s == from && gear == point.gear && point.s >= from - 1e-9 && point.s <= to + 1e-9);
+    if (tiny) continue;
+    result.path.points.push_back(point);
+    result.path.points.back().s -= removed_before(point.s);
+  }
+  for (const ProfileKnot& knot : guess.profile) {
+    if (cut_at(knot.s)) continue;
+    cut_s = removed_before(knot.s);
+    cut_t = 0.0;
+    for (const auto& [from, to] : cuts)
+      if (knot.s >= to - 1e-9) cut_t += time_at(guess, to) - time_at(guess, from);
+    const ProfileKnot moved{knot.t - cut_t, knot.s - cut_s, knot.v};
+    if (result.profile.empty() || moved.t > result.profile.back().t + 1e-9) result.profile.push_back(moved);
+  }
+  return result.path.points.size() > 2 && result.profile.size() > 1 ? result : guess;
 }
 
 trajopt::SegmentGuess fit_stretch(const TimedPath& guess, const Stretch& stretch, const vehicle::Model& model,
@@ -91,17 +161,20 @@ trajopt::SegmentGuess fit_stretch(const TimedPath& guess, const Stretch& stretch
   const double length = stretch.to - stretch.from, t_a = model.limits.speed / model.limits.acceleration;
   segment.gear = stretch.gear;
   segment.wait = wait;
-  segment.duration = std::max(stretch.end - stretch.begin, 1e-3);
+  const Turning turning = turning_of(guess.path, stretch, model.wheelbase);
+  // The guess turns its wheel in no time; where that takes time, starting slow and speeding up is easy, the reverse is not.
+  const double steering_time = std::isfinite(model.limits.steering_rate) ? turning.steering / model.limits.steering_rate : 0.0;
+  segment.duration = std::max(stretch.end - stretch.begin, 1e-3) + steering_time;
   segment.length = length;
   const auto pieces_for = [](double ratio, int least) {
     return std::clamp(static_cast<int>(std::lround(ratio)), least, traj::UniformMinco::kMaxPieces);
   };
-  const int pieces = pieces_for(length / (options.piece_length * model.length()), 3);
+  const int pieces = pieces_for(length / (options.piece_length * model.length()) + turning.heading / options.piece_turn, 3);
   const int times = pieces_for(segment.duration / (options.piece_duration * t_a), 4);
   for (int j = 0; j <= pieces; ++j)
     segment.points.push_back(search::pose_at(guess.path, stretch.from + length * j / pieces).position());
   for (int j = 0; j <= times; ++j) {
-    const double t = stretch.begin + segment.duration * j / times;
+    const double t = stretch.begin + (stretch.end - stretch.begin) * j / times;
     segment.progress.push_back(std::clamp(guess.at(t).s - stretch.from, 0.0, length));
   }
   segment.progress.back() = length;
@@ -123,9 +196,14 @@ void set_corridor(trajopt::RobotTask& task, std::span<const geom::Pose2> poses, 
   task.corridor = corridor::build(poses, task.model, map,
                                   {.reach = options.corridor_reach * length,
                                    .clearance = scenario.margins.obstacle + options.corridor_slack * length});
+  // In the tightest places the guess itself has no slack to give.
+  for (std::size_t i = 0; i < task.corridor.samples(); ++i) {
+    const double give = std::min(task.corridor.depth[i], options.corridor_slack * length);
+    for (int k = task.corridor.begin[i]; k < task.corridor.begin[i + 1]; ++k) task.corridor.b[static_cast<std::size_t>(k)] += give;
+  }
 }
 
-trajopt::RobotTask fit(const TimedPath& guess, const world::Scenario& scenario, const world::Robot& robot,
+trajopt::RobotTask fit(const TimedPath& timed, const world::Scenario& scenario, const world::Robot& robot,
                        const world::StaticMap& map, const FitOptions& options) {
   trajopt::RobotTask task;
   task.model = scenario.model_of(robot);
@@ -133,6 +211,7 @@ trajopt::RobotTask fit(const TimedPath& guess, const world::Scenario& scenario, 
   task.start_speed = robot.start_speed;
   task.goal = robot.goal;
   const double t_a = task.model.limits.speed / task.model.limits.acceleration;
+  const TimedPath guess = without_tiny_stretches(timed, options.shortest_stretch * task.model.length());
   double end = 0.0;
   std::vector<geom::Pose2> poses;
   for (const Stretch& stretch : stretches_of(guess, task.model, options.shortest_wait * t_a)) {

@@ -109,6 +109,7 @@ SolveSummary JointProblem::solve(std::span<double> x, const Deadline& deadline, 
     options.max_step = kMaxStep;
     options.max_evaluations = evaluations;
     options.decrease_tolerance = decrease;
+    options.past = settings_.past;
     options.blocks.assign(offsets_.begin(), offsets_.end() - 1);
     options.stop = [&](int iteration, double) {
       if (iteration % kRefreshEvery == 0 || (iteration & (iteration - 1)) == 0) refresh(x);

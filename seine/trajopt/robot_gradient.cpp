@@ -59,6 +59,7 @@ void RobotProblem::gradient(std::span<double> g) {
     g[static_cast<std::size_t>(rest.acceleration_variable)] =
         r == 0 && moving_start() ? rest.g_alpha : rest.g_alpha * rest.alpha;
   }
+  for (std::size_t i = 0; i < scale_.size(); ++i) g[i] *= scale_[i];
 }
 
 void RobotProblem::pull_segment(std::size_t index, std::span<double> g) {

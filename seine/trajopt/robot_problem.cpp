@@ -55,6 +55,7 @@ RobotProblem::RobotProblem(const RobotTask& task, const Units& units, const Sett
   corridor_ = task.corridor;
   for (double& b : corridor_.b) b /= units.length;
   lay_out(task, units);
+  set_scale();
   double travel = 0.0;
   for (const SegmentGuess& guess : guess_) travel += guess.duration;
   sample_weight_ = settings.penalty * penalty_scale * travel / (kTimeLanes * time_pieces_);
@@ -104,6 +105,24 @@ void RobotProblem::lay_out(const RobotTask& task, const Units& units) {
   }
 }
 
+// Moving a knot by δ changes the curvature by about δ/l², turning a rest by δ changes it by δ/l.
+void RobotProblem::set_scale() {
+  scale_.assign(static_cast<std::size_t>(variables_), 1.0);
+  x_.assign(static_cast<std::size_t>(variables_), 0.0);
+  const auto piece_length = [&](std::size_t i) { return guess_[i].length / segments_[i].pieces; };
+  for (std::size_t i = 0; i < segments_.size(); ++i) {
+    const double l = piece_length(i), scale = std::min(1.0, l * l * kappa_max_);
+    for (int j = 0; j < 2 * (segments_[i].pieces - 1); ++j) scale_[static_cast<std::size_t>(segments_[i].knots + j)] = scale;
+  }
+  for (std::size_t r = 0; r < rests_.size(); ++r) {
+    if (rests_[r].pose_variable < 0) continue;
+    const double l = std::min(piece_length(r - 1), piece_length(r));
+    const auto at = static_cast<std::size_t>(rests_[r].pose_variable);
+    scale_[at] = scale_[at + 1] = std::min(1.0, l * l * kappa_max_);
+    scale_[at + 2] = std::min(1.0, l * kappa_max_);
+  }
+}
+
 void RobotProblem::initial(std::span<double> x) const {
   const auto at = [&](int index) -> double& { return x[static_cast<std::size_t>(index)]; };
   for (std::size_t i = 0; i < segments_.size(); ++i) {
@@ -129,9 +148,12 @@ void RobotProblem::initial(std::span<double> x) const {
     at(rest.curvature_variable) = rest.curvature;
     at(rest.acceleration_variable) = r == 0 && moving_start() ? 0.0 : std::log(rest.acceleration);
   }
+  for (std::size_t i = 0; i < scale_.size(); ++i) x[i] /= scale_[i];
 }
 
-void RobotProblem::load(std::span<const double> x) {
+void RobotProblem::load(std::span<const double> point) {
+  for (std::size_t i = 0; i < scale_.size(); ++i) x_[i] = scale_[i] * point[i];
+  const std::span<const double> x = x_;
   const auto at = [&](int index) { return x[static_cast<std::size_t>(index)]; };
   for (std::size_t r = 0; r < rests_.size(); ++r) {
     Rest& rest = rests_[r];

@@ -27,7 +27,8 @@ struct ClockState {
 ///
 /// Variables, segment after segment: interior knots (x, y), interior progress, log l, log h, log wait (only where the guess waits); then a pose
 /// and a curvature (x, y, θ, κ/κ_max) for each rest between segments; curvature at start and goal; the acceleration magnitude at each rest
-/// (logarithm; at a moving start the acceleration itself).
+/// (logarithm; at a moving start the acceleration itself). Positions are scaled so that a unit step bends the curve about as much on a short
+/// piece as on a long one: without that a manoeuvre of a few centimetres stalls the whole problem.
 class RobotProblem {
  public:
   /// @param penalty_scale raised by repair rounds where a limit was missed
@@ -37,7 +38,7 @@ class RobotProblem {
   void initial(std::span<double> x) const;
 
   /// Takes x and evaluates the curve and the progress; must come before everything below.
-  void load(std::span<const double> x);
+  void load(std::span<const double> point);
   /// Own cost with the hinges' knee as given; keeps the gradient inside.
   double evaluate(double knee);
   /// Pose at time t (units) on the common clock; before the start and after arrival the car stands still.
@@ -77,6 +78,7 @@ class RobotProblem {
   };
 
   void lay_out(const RobotTask& task, const Units& units);
+  void set_scale();
   void load_segment(std::size_t index, std::span<const double> x);
   double limits(double knee);
   double corridor_cost(int piece, const Segment& segment, CurveLanes& lanes, double knee) const;
@@ -95,6 +97,7 @@ class RobotProblem {
   std::vector<Segment> segments_;
   std::vector<Rest> rests_;                 // segments + 1
   corridor::Corridor corridor_;             // units
+  std::vector<double> scale_, x_;  // of each variable; the present point, scale taken out
   int variables_ = 0, pieces_ = 0, time_pieces_ = 0;
   double arrival_ = 0.0;
 

@@ -13,7 +13,8 @@ struct Settings {
   double penalty = 60.0;
   double pair_penalty = 1.0;       ///< factor on the penalty for distances to other cars and moving obstacles
   double soft_knee = 0.3, stiff_knee = 0.03;                    ///< of the hinge, first and second stage
-  double soft_decrease = 1e-4, stiff_decrease = 1e-4;           ///< relative decrease that ends a stage
+  double soft_decrease = 1e-4, stiff_decrease = 1e-4;           ///< relative decrease that ends a stage …
+  int past = 4;                                                 ///< … over this many iterations
   int soft_evaluations = 300, stiff_evaluations = 700;          ///< at most
   int memory = 16;
   double tighten = 0.01;           ///< limits are kept to (1 − this), so that what happens between samples stays inside
