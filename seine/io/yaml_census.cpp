@@ -12,17 +12,21 @@ namespace seine::io {
 namespace {
 
 constexpr int kDeepest = 40;  // levels; a scenario has seven
+constexpr int kMostValues =
+    1'200'000;  // a scenario at its largest; the library takes some 400 bytes for each
 
-/// Counts levels, builds nothing.
+/// Counts levels and values, builds nothing.
 class DepthHandler final : public YAML::EventHandler {
  public:
   explicit DepthHandler(const std::string& file) : file_(file) {}
 
   void OnDocumentStart(const YAML::Mark&) override {}
   void OnDocumentEnd() override {}
-  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
-  void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
-  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t, const std::string&) override {}
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t) override { count(mark); }
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override { count(mark); }
+  void OnScalar(const YAML::Mark& mark, const std::string&, YAML::anchor_t, const std::string&) override {
+    count(mark);
+  }
   void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
                        YAML::EmitterStyle::value) override {
     enter(mark);
@@ -35,12 +39,18 @@ class DepthHandler final : public YAML::EventHandler {
   void OnMapEnd() override { --depth_; }
 
  private:
+  void count(const YAML::Mark& mark) {
+    if (++values_ > kMostValues)
+      throw complaint(file_, mark.line + 1, joined("has more than ", kMostValues, " values up to here"));
+  }
   void enter(const YAML::Mark& mark) {
+    count(mark);
     if (++depth_ > kDeepest) throw complaint(file_, mark.line + 1, "is nested too deeply");
   }
 
   const std::string& file_;
   int depth_ = 0;
+  int values_ = 0;
 };
 
 }  // namespace
@@ -48,7 +58,8 @@ class DepthHandler final : public YAML::EventHandler {
 std::string yaml_complaint(const std::string& said) {
   std::string shown = said.substr(0, 80);
   for (char& c : shown) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20 || byte > 0x7e) c = '?';  // of a character beyond ASCII the library shows but one byte
   }
   return joined("is not valid YAML: ", shown);
 }

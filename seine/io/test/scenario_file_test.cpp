@@ -253,6 +253,9 @@ TEST(ScenarioFile, RefusesWhatIsNoScenario) {
   EXPECT_EQ(complaint_about("seine: " + std::string(60, '[')), "team.yaml:1: is nested too deeply");
   EXPECT_NE(complaint_about(std::string(100000, '[')), "");
   EXPECT_NE(complaint_about(std::string(100000, '{')), "");
+  std::string many = "seine: 1\nworld: [";
+  for (int i = 0; i < 1'300'000; ++i) many += "0, ";
+  EXPECT_EQ(complaint_about(many), "team.yaml:2: has more than 1200000 values up to here");
   std::string deep = "seine: 1\nworld: ";
   for (int i = 0; i < 100000; ++i) deep += "[";
   EXPECT_NE(complaint_about(deep), "");
