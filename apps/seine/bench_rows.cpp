@@ -93,11 +93,12 @@ Row parse_row(const std::vector<std::string>& names, const std::string& line) {
 
 RowFile::RowFile(const std::string& path, const std::string& settings) {
   if (path.empty()) return;
-  const bool fresh = !std::filesystem::exists(path);
-  if (!fresh) read(path, settings);
-  out_.open(path, std::ios::app);
+  if (std::filesystem::exists(path)) read(path, settings);
+  out_.open(path);  // written anew: the last line may have been cut off by an interrupt
   if (!out_) throw InputError(path + ": cannot be written");
-  if (fresh) out_ << "# " << settings << "\n" << header() << std::endl;
+  out_ << "# " << settings << "\n" << header() << "\n";
+  for (const Row& row : rows_) out_ << line_of(row) << "\n";
+  out_.flush();
 }
 
 void RowFile::read(const std::string& path, const std::string& settings) {
@@ -111,8 +112,7 @@ void RowFile::read(const std::string& path, const std::string& settings) {
                         "was made with '" + first.substr(std::min<std::size_t>(2, first.size())) +
                             "', not '" + settings + "': remove it or give another name with -o");
   }
-  for (std::string line;
-       std::getline(in, line) && !in.eof();) {  // a line without an end was cut off by an interrupt
+  for (std::string line; std::getline(in, line) && !in.eof();) {
     rows_.push_back(parse_row(fields_of(names), line));
     known_.insert({rows_.back().group, rows_.back().instance});
   }

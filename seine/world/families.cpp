@@ -199,8 +199,9 @@ Scenario corridor_scene(int robots, std::uint64_t seed) {
   std::array<std::size_t, 2> taken{0, 0};
   const auto next_place = [&](std::size_t side, double heading) -> Pose2 {
     const int place = order[side][taken[side]++];
-    const double depth = 0.5 * kLength + kEdge + kPitch * (place / rows) + rng.uniform(-0.1, 0.1);
-    const double y = kPitch * (place % rows) - 0.5 * kPitch * (rows - 1) + rng.uniform(-0.1, 0.1);
+    const int column = place / rows, row = place % rows;
+    const double depth = 0.5 * kLength + kEdge + kPitch * column + rng.uniform(-0.1, 0.1);
+    const double y = kPitch * row - 0.5 * kPitch * (rows - 1) + rng.uniform(-0.1, 0.1);
     return {side == 0 ? -depth : depth, y, geom::wrap_angle(heading + rng.uniform(-0.3, 0.3))};
   };
   for (int i = 0; i < robots; ++i) {

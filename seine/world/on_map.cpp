@@ -37,8 +37,8 @@ class Floor {
   std::size_t cells() const { return map_.occupied.size(); }
   bool place(int cell) const { return clearance_[static_cast<std::size_t>(cell)] >= kPlaceClearance; }
   Vec2 center(int cell) const {
-    return map_.origin *
-           Vec2{(cell % width_ + 0.5) * map_.resolution, (cell / width_ + 0.5) * map_.resolution};
+    const int column = cell % width_, row = cell / width_;
+    return map_.origin * Vec2{(column + 0.5) * map_.resolution, (row + 0.5) * map_.resolution};
   }
 
   /// Driving distance from `from` to every cell within `limit`, infinity elsewhere; `order` lists the reached

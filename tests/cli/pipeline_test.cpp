@@ -84,9 +84,9 @@ TEST(Pipeline, DeadlinesAreKept) {
 
 TEST(Pipeline, InterruptedEndsSoonAndWritesNothing) {
   const Scratch scratch;
-  ASSERT_EQ(scratch.run("generate swap --robots 100 -o s.yaml").status, 0);
-  // The shell's own timeout presses Ctrl-C after 0.2 s, long before a hundred cars are planned.
-  scratch.write("run.sh", "timeout -s INT 0.2 " SEINE_PROGRAM " plan s.yaml -o p.json; exit 0\n");
+  ASSERT_EQ(scratch.run("generate swap --robots 300 -o s.yaml").status, 0);
+  // The shell's own timeout presses Ctrl-C after 0.1 s, long before three hundred cars are planned.
+  scratch.write("run.sh", "timeout -s INT 0.1 " SEINE_PROGRAM " plan s.yaml -o p.json; exit 0\n");
   const Outcome outcome = scratch.run("--version && bash run.sh");
   EXPECT_EQ(outcome.err, "seine: interrupted\n");
   EXPECT_FALSE(scratch.has("p.json"));
