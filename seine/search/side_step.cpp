@@ -25,18 +25,21 @@ double turning_radius(double distance, double offset, double smallest) {
   return std::max(smallest, kShare * (distance * distance + offset * offset) / (4.0 * std::abs(offset)));
 }
 
-bool append_forward(const geom::Pose2& from, const geom::Pose2& to, double radius,
+// Arcs straight ahead: gentle if possible, tight where the path itself bends.
+bool append_forward(const geom::Pose2& from, const geom::Pose2& to, double gentle, double tight,
                     std::vector<vehicle::Arc>& arcs) {
-  const vehicle::ReedsSheppPath word =
-      vehicle::reeds_shepp(from, to, radius, {.reverse = 4.0, .gear_change = 4.0 * radius});
-  // Forward words that go round in a circle are no side steps.
-  constexpr double kLongest = 1.5;
-  if (word.length > kLongest * norm(to.position() - from.position())) return false;
-  for (const vehicle::Arc& arc : word.arcs()) {
-    if (arc.distance < 0.0) return false;
-    arcs.push_back(arc);
+  for (const double radius : {gentle, tight}) {
+    const vehicle::ReedsSheppPath word =
+        vehicle::reeds_shepp(from, to, radius, {.reverse = 4.0, .gear_change = 4.0 * radius});
+    // Forward words that go round in a circle are no side steps.
+    constexpr double kLongest = 1.5;
+    if (word.length > kLongest * norm(to.position() - from.position())) continue;
+    const auto ahead = [](const vehicle::Arc& arc) { return arc.distance >= 0.0; };
+    if (!std::all_of(word.arcs().begin(), word.arcs().end(), ahead)) continue;
+    arcs.insert(arcs.end(), word.arcs().begin(), word.arcs().end());
+    return true;
   }
-  return true;
+  return false;
 }
 
 // [begin, end) of the stretch in one gear that holds s.
@@ -103,12 +106,12 @@ std::optional<Path> SideStep::around(const Path& path, double s, double offset) 
   const double smallest = kRadius / model_.max_curvature();
   Route route{pose_at(path, from), pose_at(path, to), {}};
   const geom::Pose2 in = beside(first), out = beside(last);
-  if (!append_forward(route.start, in, turning_radius(first - from, offset, smallest), route.arcs))
+  if (!append_forward(route.start, in, turning_radius(first - from, offset, smallest), smallest, route.arcs))
     return std::nullopt;
-  if (last - first > 0.1 * length && !append_forward(in, out, 2.0 * smallest, route.arcs))
+  if (last - first > 0.1 * length && !append_forward(in, out, 2.0 * smallest, smallest, route.arcs))
     return std::nullopt;
   const geom::Pose2& then = last - first > 0.1 * length ? out : in;
-  if (!append_forward(then, route.goal, turning_radius(to - last, offset, smallest), route.arcs))
+  if (!append_forward(then, route.goal, turning_radius(to - last, offset, smallest), smallest, route.arcs))
     return std::nullopt;
   if (sweep(checker_, route.start, checker_.room(route.start), route.arcs) < 0.0) return std::nullopt;
   return spliced(path, from, sampled(route, kPathSpacing * length), to);
