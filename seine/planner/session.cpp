@@ -16,7 +16,8 @@ constexpr int kPolishRounds = 8;
 constexpr int kAttempts = 6;
 constexpr double kTick = 0.05;            // of the time a car takes to drive its own length
 constexpr double kCloseGap = 0.25;        // car lengths: cars that come this close are optimised jointly
-constexpr double kPenaltyRaise = 3.0;
+constexpr double kPenaltyRaise = 3.0, kMostPenalty = 100.0;
+constexpr double kTightenRaise = 0.005, kMostTighten = 0.03;
 constexpr double kClearanceRaise = 0.01;  // car lengths, on top of what was missed
 constexpr int kLargeGroup = 6;            // a group this large is worth all threads
 
@@ -32,9 +33,12 @@ PlanResult Session::run() {
     throw InputError(scenario_.name + ": " + complaints.front() + more);
   }
   for (int attempt = 0; attempt < kAttempts && !deadline_.expired(); ++attempt) {
-    if (!guess(static_cast<std::uint64_t>(attempt))) continue;
+    // Every guess gets two tries: a free one and a gentle one.
+    const bool gently = attempt % 2 == 1;
+    if (!gently && !guess(static_cast<std::uint64_t>(attempt / 2))) continue;
+    if (!guess_.complete) continue;
     prepare();
-    optimise();
+    optimise(gently);
     polish();
     if (result_.certified) break;
     ++result_.repairs;
@@ -64,6 +68,7 @@ void Session::prepare() {
     const auto i = static_cast<std::size_t>(k);
     tasks_[i] = fit(guess_.robots[i], scenario_, scenario_.robots[i], map_);
   });
+  settings_ = {};
   units_ = trajopt::units_of(tasks_);
   tick_ = kTick * units_.time;
   double last = 0.0;
@@ -79,7 +84,7 @@ void Session::prepare() {
     place(bodies_[i], guess_.robots[i], units_, tick_, ticks_);
   });
   extra_.assign(count * bodies_.size(), 0.0);
-  penalty_scale_.assign(count, 1.0);
+  demands_.assign(count, {});
   solution_.assign(count, {});
   evaluations_.assign(count, 0);
   result_.plan.robots.assign(count, {});
@@ -93,31 +98,31 @@ void Session::place_bodies() {
   });
 }
 
-void Session::optimise() {
+void Session::optimise(bool gently) {
   const Stopwatch watch;
   report("optimise", 0.0);
   std::vector<Group> alone;
   for (int k = 0; k < static_cast<int>(tasks_.size()); ++k) alone.push_back({k});
-  solve_groups(alone, true);
+  solve_groups(alone, gently ? Start::gentle_guess : Start::guess);
   report("optimise", 0.5);
   std::vector<Group> close = close_groups(kCloseGap * units_.length);
   std::erase_if(close, [](const Group& group) { return group.size() < 2; });
-  solve_groups(close, false);
+  solve_groups(close, Start::solution);
   result_.times.optimise += watch.seconds();
 }
 
 // Groups do not see each other's changes until all are done.
-void Session::solve_groups(const std::vector<Group>& groups, bool from_guess) {
+void Session::solve_groups(const std::vector<Group>& groups, Start start) {
   std::vector<const Group*> small;
   for (const Group& group : groups) {
     if (group.size() >= kLargeGroup)
-      solve(group, from_guess, workers_);
+      solve(group, start, workers_);
     else
       small.push_back(&group);
   }
   workers_.run(static_cast<int>(small.size()), [&](int k) {
     Workers serial(1);
-    solve(*small[static_cast<std::size_t>(k)], from_guess, serial);
+    solve(*small[static_cast<std::size_t>(k)], start, serial);
   });
   for (const Group& group : groups) result_.iterations += evaluations_[static_cast<std::size_t>(group.front())];
   place_bodies();
@@ -134,24 +139,24 @@ trajopt::Task Session::task_for(const Group& group) const {
   for (const int k : group) {
     const auto i = static_cast<std::size_t>(k);
     task.robots.push_back(&tasks_[i]);
-    task.penalty_scale.push_back(penalty_scale_[i]);
+    task.demands.push_back(demands_[i]);
     for (const int other : group) task.extra.push_back(extra_[i * bodies_.size() + static_cast<std::size_t>(other)]);
     for (const std::size_t body : others) task.extra.push_back(extra_[i * bodies_.size() + body]);
   }
   return task;
 }
 
-void Session::solve(const Group& group, bool from_guess, Workers& workers) {
+void Session::solve(const Group& group, Start start, Workers& workers) {
   trajopt::JointProblem problem(task_for(group), settings_, workers);
   std::vector<double> x = problem.initial();
   const auto slice = [&](std::size_t i) {
     return std::span(x).subspan(static_cast<std::size_t>(problem.offsets()[i]),
                                 static_cast<std::size_t>(problem.offsets()[i + 1] - problem.offsets()[i]));
   };
-  if (!from_guess)
+  if (start == Start::solution)
     for (std::size_t i = 0; i < group.size(); ++i)
       std::ranges::copy(solution_[static_cast<std::size_t>(group[i])], slice(i).begin());
-  const trajopt::SolveSummary summary = problem.solve(x, deadline_, !from_guess);
+  const trajopt::SolveSummary summary = problem.solve(x, deadline_, start != Start::guess);
   const traj::TeamTrajectory solved = problem.trajectory(x);
   for (std::size_t i = 0; i < group.size(); ++i) {
     const auto k = static_cast<std::size_t>(group[i]);
@@ -188,7 +193,9 @@ void Session::polish() {
     if (certify() || deadline_.expired()) return;
     const Stopwatch watch;
     report("repair", static_cast<double>(round) / kPolishRounds);
-    solve_groups(raise_demands(round), false);
+    const std::vector<Group> groups = raise_demands(round);
+    if (round > 0) settings_.pair_penalty *= 2.0;
+    solve_groups(groups, Start::solution);
     result_.times.optimise += watch.seconds();
   }
   certify();
@@ -199,6 +206,9 @@ std::vector<Session::Group> Session::raise_demands(int round) {
   const std::size_t count = tasks_.size();
   Groups groups(static_cast<int>(count));
   std::vector<char> at_fault(count, 0);
+  const auto raise_penalty = [&](std::size_t robot) {
+    demands_[robot].penalty_scale = std::min(demands_[robot].penalty_scale * kPenaltyRaise, kMostPenalty);
+  };
   for (const certify::Violation& v : result_.certificate.violations) {
     if (v.robot < 0) continue;
     const auto a = static_cast<std::size_t>(v.robot);
@@ -219,9 +229,14 @@ std::vector<Session::Group> Session::raise_demands(int round) {
         break;
       case certify::Kind::obstacle_clearance:
       case certify::Kind::bounds:
-        for (double& b : tasks_[a].corridor.b) b -= missed + kClearanceRaise * units_.length;
+        raise_penalty(a);
+        if (round > 0)
+          for (double& b : tasks_[a].corridor.b) b -= std::min(missed, kClearanceRaise * units_.length);
         break;
-      default: penalty_scale_[a] *= kPenaltyRaise; break;
+      default:
+        raise_penalty(a);
+        if (round > 0) demands_[a].tighten = std::min(demands_[a].tighten + kTightenRaise, kMostTighten);
+        break;
     }
   }
   std::vector<Group> result = groups.all();

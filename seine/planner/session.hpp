@@ -22,13 +22,18 @@ class Session {
 
  private:
   using Group = std::vector<int>;  // robots, ascending
+  enum class Start {
+    guess,         // from the guess, soft constraints first
+    gentle_guess,  // from the guess, stiff at once: stays closer to it, in its passing orders
+    solution,      // from where the cars are now, stiff
+  };
 
   bool guess(std::uint64_t attempt);
   void prepare();
   void place_bodies();
-  void optimise();
-  void solve_groups(const std::vector<Group>& groups, bool from_guess);
-  void solve(const Group& group, bool from_guess, Workers& workers);
+  void optimise(bool gently);
+  void solve_groups(const std::vector<Group>& groups, Start start);
+  void solve(const Group& group, Start start, Workers& workers);
   trajopt::Task task_for(const Group& group) const;
   std::vector<Group> close_groups(double gap) const;
   bool certify();
@@ -55,7 +60,7 @@ class Session {
   std::vector<int> evaluations_;               // per robot: of the last group it was solved in
   std::vector<trajopt::Body> bodies_;          // every robot as it moves now, then the moving obstacles' parts
   std::vector<double> extra_;                  // m, robots × bodies: clearance asked on top of the scenario's
-  std::vector<double> penalty_scale_;          // per robot
+  std::vector<trajopt::Demand> demands_;       // per robot
   PlanResult result_;
 };
 

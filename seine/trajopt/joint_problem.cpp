@@ -44,7 +44,7 @@ JointProblem::JointProblem(const Task& task, const Settings& settings, Workers& 
       states_(task.robots.size() * static_cast<std::size_t>(task.ticks)), costs_(task.robots.size()),
       chunk_costs_(Proximity::kChunks), tick_(task.tick / units_.time), ticks_(task.ticks) {
   for (std::size_t k = 0; k < task.robots.size(); ++k) {
-    robots_.emplace_back(*task.robots[k], units_, settings, task.penalty_scale.empty() ? 1.0 : task.penalty_scale[k]);
+    robots_.emplace_back(*task.robots[k], units_, settings, task.demands.empty() ? Demand{} : task.demands[k]);
     offsets_.push_back(offsets_.back() + robots_.back().variables());
   }
 }

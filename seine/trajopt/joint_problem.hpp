@@ -18,7 +18,7 @@ struct Task {
   std::vector<const Body*> bodies;        ///< in units; must outlive the problem
   double robot_clearance = 0.05;          ///< m, between footprints
   std::vector<double> extra;              ///< m, robots × (robots + bodies), added to their clearance; may be empty
-  std::vector<double> penalty_scale;      ///< per robot; may be empty
+  std::vector<Demand> demands;            ///< per robot; may be empty
   double tick = 0.05;                     ///< s, spacing of the common clock's samples
   int ticks = 1;                          ///< the clock ends when everything has come to rest
   Units units;                            ///< see units_of; the same for every subset of a team, so that variables can be carried over

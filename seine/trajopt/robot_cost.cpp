@@ -49,6 +49,7 @@ double RobotProblem::limits(double knee) {
 }
 
 double RobotProblem::corridor_cost(int piece, const Segment& s, CurveLanes& lanes, double knee) const {
+  const double weight = settings_.corridor_penalty * curve_weight_;
   double cost = 0.0;
   for (int lane = 0; lane < kCurveLanes; ++lane) {
     const auto sample = static_cast<std::size_t>(piece * kCurveLanes + lane), i = static_cast<std::size_t>(lane);
@@ -68,9 +69,9 @@ double RobotProblem::corridor_cost(int piece, const Segment& s, CurveLanes& lane
         const double excess = constraint::corridor(p, d, corner, normal, corridor_.b[k], gp, gd);
         if (excess <= 0.0) continue;
         double slope;
-        cost += curve_weight_ * math::hinge(excess, knee, slope);
-        g_p += (curve_weight_ * slope) * gp;
-        g_d += (curve_weight_ * slope) * gd;
+        cost += weight * math::hinge(excess, knee, slope);
+        g_p += (weight * slope) * gp;
+        g_d += (weight * slope) * gd;
       }
     }
     lanes.gpx[i] += g_p.x, lanes.gpy[i] += g_p.y;

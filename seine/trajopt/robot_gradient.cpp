@@ -55,7 +55,7 @@ void RobotProblem::gradient(std::span<double> g) {
       g[static_cast<std::size_t>(rest.pose_variable + 1)] = rest.g_y;
       g[static_cast<std::size_t>(rest.pose_variable + 2)] = rest.g_heading;
     }
-    g[static_cast<std::size_t>(rest.curvature_variable)] = rest.g_kappa * kappa_max_;
+    g[static_cast<std::size_t>(rest.curvature_variable)] = rest.g_kappa * kappa_unit_;
     g[static_cast<std::size_t>(rest.acceleration_variable)] =
         r == 0 && moving_start() ? rest.g_alpha : rest.g_alpha * rest.alpha;
   }

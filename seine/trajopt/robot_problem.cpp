@@ -45,11 +45,12 @@ geom::Pose2 scaled(geom::Pose2 pose, const Units& units) {
 
 }  // namespace
 
-RobotProblem::RobotProblem(const RobotTask& task, const Units& units, const Settings& settings, double penalty_scale)
-    : settings_(settings), units_(units), model_(scaled(task.model, units, settings.tighten)) {
+RobotProblem::RobotProblem(const RobotTask& task, const Units& units, const Settings& settings, const Demand& demand)
+    : settings_(settings), units_(units), model_(scaled(task.model, units, settings.tighten + demand.tighten)) {
   footprint_ = model_.footprint;
   reach_ = model_.reach();
-  kappa_max_ = task.model.max_curvature() * units.length * (1.0 - settings.tighten);
+  kappa_unit_ = task.model.max_curvature() * units.length;
+  kappa_max_ = kappa_unit_ * (1.0 - settings.tighten - demand.tighten);
   start_speed_ = std::abs(task.start_speed) * units.time / units.length;
   for (const SegmentGuess& guess : task.segments) guess_.push_back(scaled(guess, units));
   corridor_ = task.corridor;
@@ -58,8 +59,8 @@ RobotProblem::RobotProblem(const RobotTask& task, const Units& units, const Sett
   set_scale();
   double travel = 0.0;
   for (const SegmentGuess& guess : guess_) travel += guess.duration;
-  sample_weight_ = settings.penalty * penalty_scale * travel / (kTimeLanes * time_pieces_);
-  curve_weight_ = settings.penalty * penalty_scale * travel / (kCurveLanes * pieces_);
+  sample_weight_ = settings.penalty * demand.penalty_scale * travel / (kTimeLanes * time_pieces_);
+  curve_weight_ = settings.penalty * demand.penalty_scale * travel / (kCurveLanes * pieces_);
   for (auto* c : {&cx_, &cy_, &gcx_, &gcy_}) c->assign(static_cast<std::size_t>(6 * pieces_), 0.0);
   for (auto* c : {&cu_, &gcu_}) c->assign(static_cast<std::size_t>(6 * time_pieces_), 0.0);
 }
@@ -96,7 +97,7 @@ void RobotProblem::lay_out(const RobotTask& task, const Units& units) {
       rest.curvature = 0.5 * (guess_[before].end_curvature + guess_[after].start_curvature);
       rest.acceleration = std::sqrt(guess_[before].end_deceleration * guess_[after].start_acceleration);
     }
-    rest.curvature = std::clamp(rest.curvature / kappa_max_, -0.9, 0.9);
+    rest.curvature = std::clamp(rest.curvature / kappa_unit_, -0.9, 0.9);
     rest.pose_variable = given ? -1 : variables_;
     if (!given) variables_ += 3;
     rest.curvature_variable = variables_++;
@@ -111,15 +112,15 @@ void RobotProblem::set_scale() {
   x_.assign(static_cast<std::size_t>(variables_), 0.0);
   const auto piece_length = [&](std::size_t i) { return guess_[i].length / segments_[i].pieces; };
   for (std::size_t i = 0; i < segments_.size(); ++i) {
-    const double l = piece_length(i), scale = std::min(1.0, l * l * kappa_max_);
+    const double l = piece_length(i), scale = std::min(1.0, l * l * kappa_unit_);
     for (int j = 0; j < 2 * (segments_[i].pieces - 1); ++j) scale_[static_cast<std::size_t>(segments_[i].knots + j)] = scale;
   }
   for (std::size_t r = 0; r < rests_.size(); ++r) {
     if (rests_[r].pose_variable < 0) continue;
     const double l = std::min(piece_length(r - 1), piece_length(r));
     const auto at = static_cast<std::size_t>(rests_[r].pose_variable);
-    scale_[at] = scale_[at + 1] = std::min(1.0, l * l * kappa_max_);
-    scale_[at + 2] = std::min(1.0, l * kappa_max_);
+    scale_[at] = scale_[at + 1] = std::min(1.0, l * l * kappa_unit_);
+    scale_[at + 2] = std::min(1.0, l * kappa_unit_);
   }
 }
 
@@ -160,7 +161,7 @@ void RobotProblem::load(std::span<const double> point) {
     rest.now = rest.pose;
     if (rest.pose_variable >= 0)
       rest.now = {at(rest.pose_variable), at(rest.pose_variable + 1), at(rest.pose_variable + 2)};
-    rest.kappa = at(rest.curvature_variable) * kappa_max_;
+    rest.kappa = at(rest.curvature_variable) * kappa_unit_;
     const double a = at(rest.acceleration_variable);
     rest.alpha = r == 0 && moving_start() ? a : std::exp(a);
     rest.g_x = rest.g_y = rest.g_heading = rest.g_kappa = rest.g_alpha = 0.0;

@@ -22,6 +22,12 @@ struct ClockState {
   int segment = 0, piece = 0, time_piece = 0;  ///< pieces counted over all segments
 };
 
+/// What repair rounds ask of a car whose limits were missed.
+struct Demand {
+  double penalty_scale = 1.0;
+  double tighten = 0.0;  ///< on top of Settings::tighten
+};
+
 /// One car in the two-layer form (docs/trajectory.md): its variables, its own cost and limits, its pose on the common clock, and the chain rule
 /// back to the variables. Knows nothing of other cars. Everything inside is in `Units`.
 ///
@@ -31,8 +37,7 @@ struct ClockState {
 /// piece as on a long one: without that a manoeuvre of a few centimetres stalls the whole problem.
 class RobotProblem {
  public:
-  /// @param penalty_scale raised by repair rounds where a limit was missed
-  RobotProblem(const RobotTask& task, const Units& units, const Settings& settings, double penalty_scale = 1.0);
+  RobotProblem(const RobotTask& task, const Units& units, const Settings& settings, const Demand& demand = {});
 
   int variables() const { return variables_; }
   void initial(std::span<double> x) const;
@@ -92,7 +97,7 @@ class RobotProblem {
   Units units_;
   vehicle::Model model_;                    // limits in units
   std::vector<geom::Vec2> footprint_;       // units
-  double reach_ = 0.0, kappa_max_ = 1.0, start_speed_ = 0.0, time_weight_ = 1.0, sample_weight_ = 0.0, curve_weight_ = 0.0;
+  double reach_ = 0.0, kappa_max_ = 1.0, kappa_unit_ = 1.0, start_speed_ = 0.0, time_weight_ = 1.0, sample_weight_ = 0.0, curve_weight_ = 0.0;
   std::vector<SegmentGuess> guess_;         // units
   std::vector<Segment> segments_;
   std::vector<Rest> rests_;                 // segments + 1

@@ -11,7 +11,9 @@ struct Settings {
   double regularity = 0.1;         ///< of the mean of (|p'|²/l² − 1)²
   /// Penalty on the mean violation of each kind, per unit of guessed travel time: it must exceed the multipliers, which scale like it.
   double penalty = 60.0;
-  double pair_penalty = 1.0;       ///< factor on the penalty for distances to other cars and moving obstacles
+  /// Factors on the penalty for the corridor, and for distances to other cars and moving obstacles: contacts are short, so their whole
+  /// multiplier rests on a few samples.
+  double corridor_penalty = 4.0, pair_penalty = 3.0;
   double soft_knee = 0.3, stiff_knee = 0.03;                    ///< of the hinge, first and second stage
   double soft_decrease = 1e-4, stiff_decrease = 1e-4;           ///< relative decrease that ends a stage …
   int past = 4;                                                 ///< … over this many iterations
