@@ -51,6 +51,7 @@ std::string padded(std::string text, std::size_t width) {
   return text;
 }
 
+constexpr int kFailuresShown = 3;  // of a group; the file has them all
 constexpr const char* kHead =
     "                          certified      compute s       guess   optim.  certify   travel s        "
     "dist. m  accel.  "
@@ -98,6 +99,12 @@ std::string table(const std::vector<Row>& rows, const std::vector<Row>& referenc
       text += padded("", 26) + "and " + std::to_string(refused.size()) +
               " refused as wrong in themselves, in at most " +
               cell(1e3 * largest(column(refused, &Row::compute)), 1, 1) + " ms\n";
+    }
+    int shown = 0;
+    for (const Row& row : rows) {
+      if (row.group == group && row.status == "no" && shown++ < kFailuresShown) {
+        text += "    no plan for " + row.instance + ": " + row.reason + "\n";
+      }
     }
     for (const Row& row : reference) {
       if (row.group == group) text += line_of("  " + row.instance, row.status, {&row});
