@@ -124,7 +124,7 @@ TeamSearch::Placed TeamSearch::place(int robot, const TeamState& state) {
 }
 
 // Passes the first robot it meets on the other side, or further out.
-TeamSearch::Placed TeamSearch::side_step(int robot, const TeamState& state, Placed best) {
+TeamSearch::Placed TeamSearch::side_step(int robot, const TeamState& state, Placed best, double latest) {
   if (!sources_.side_step || static_cast<int>(coordinator_.ways(robot).size()) >= options_.most_ways)
     return best;
   const int way = best ? best->way : fastest_way(robot);
@@ -138,7 +138,7 @@ TeamSearch::Placed TeamSearch::side_step(int robot, const TeamState& state, Plac
     std::optional<Path> beside = sources_.side_step(robot, path, s, offset);
     if (!beside || !coordinator_.add_way(robot, std::move(*beside))) continue;
     ++effort_.side_steps;
-    const double latest = best ? best->arrival - 1e-3 : std::numeric_limits<double>::infinity();
+    if (best) latest = std::min(latest, best->arrival - 1e-3);
     const int added = static_cast<int>(coordinator_.ways(robot).size()) - 1;
     Placed placed = coordinator_.place_on(robot, added, state, workspace_, latest);
     if (!placed)
@@ -213,6 +213,8 @@ bool TeamSearch::replace_group(const std::vector<int>& group, TeamState& state, 
     limit += coordinator_.alone(robot);
     ++effort_.placements;
     state[idx(robot)] = coordinator_.place(robot, state, workspace_, limit);
+    if (!state[idx(robot)] && rng_.uniform() < 0.3)
+      state[idx(robot)] = side_step(robot, state, nullptr, limit);
     if (!state[idx(robot)]) return false;
     limit -= state[idx(robot)]->arrival;
   }

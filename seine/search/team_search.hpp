@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -23,9 +24,9 @@ struct TeamSearchOptions {
   double late = 1.0;  ///< s, a delay worth a detour, or `late_share` of the time alone when that is longer
   double late_share = 0.2;
   int most_ways = 8;             ///< kept for one robot
-  double rounds = 4.0;           ///< neighbourhoods tried for each robot after everybody has a motion
+  double rounds = 3.0;           ///< neighbourhoods tried for each robot after everybody has a motion
   double rescuing_paths = 3.0;   ///< paths searched for, at most, for each robot until everybody has a motion
-  double improving_paths = 0.2;  ///< paths asked for in that time, for each robot
+  double improving_paths = 0.1;  ///< paths asked for in that time, for each robot
   int neighbours = 4;            ///< robots taken out together with the late one
   double bump_lengths = 2.1;     ///< radius of the places to avoid, in car lengths
   double bump_weight = 2.5;      ///< what a metre in them costs
@@ -65,7 +66,8 @@ class TeamSearch {
   using Placed = std::shared_ptr<const Placement>;
   void pass(const std::vector<int>& order, TeamState& state, const Deadline& deadline);
   Placed place(int robot, const TeamState& state);
-  Placed side_step(int robot, const TeamState& state, Placed best);
+  Placed side_step(int robot, const TeamState& state, Placed best,
+                   double latest = std::numeric_limits<double>::infinity());
   Placed detour(int robot, const TeamState& state, Placed best, int tries);
   Placed around_the_parked(int robot, const TeamState& state, bool goals);
   bool may_search(int robot) const;
