@@ -95,6 +95,19 @@ double FootprintChecker::quick_room(const geom::Pose2& pose) const {
   return std::max(room, 0.0);
 }
 
+/// A lower bound of the room to the parked cars by bounding circles; `cap` when they are further off.
+double FootprintChecker::parked_circles(const geom::Pose2& pose, double cap) const {
+  double room = cap;
+  const geom::Vec2 center = pose * middle_;
+  for (const Parked& other : parked_) {
+    const double apart = reach_ + other.radius + other.clearance;
+    const double square = geom::squared_norm(center - other.center);
+    if (square < (apart + room) * (apart + room)) room = std::sqrt(square) - apart;
+    if (room <= slack_) return room;
+  }
+  return room;
+}
+
 double FootprintChecker::parked_room(const geom::Pose2& pose, std::span<const geom::Vec2> polygon,
                                      double cap) const {
   double room = cap;
@@ -112,8 +125,9 @@ double FootprintChecker::parked_room(const geom::Pose2& pose, std::span<const ge
 double FootprintChecker::room(const geom::Pose2& pose) const {
   const double quick = quick_room(pose);
   if (quick < 0.0) return quick;
-  const bool sure = quick > slack_;
-  return sure && parked_.empty() ? quick : near_room(pose, sure ? quick : -1.0);
+  if (quick <= slack_) return near_room(pose, -1.0);
+  const double circles = parked_circles(pose, quick);
+  return circles > slack_ ? circles : near_room(pose, quick);
 }
 
 double FootprintChecker::exact_room(const geom::Pose2& pose) const {

@@ -87,6 +87,7 @@ class FootprintChecker {
   double fastest_corner(double curvature) const;
   double quick_room(const geom::Pose2& pose) const;
   double near_room(const geom::Pose2& pose, double map_room) const;
+  double parked_circles(const geom::Pose2& pose, double cap) const;
   double parked_room(const geom::Pose2& pose, std::span<const geom::Vec2> polygon, double cap) const;
 
   const world::StaticMap* map_;
