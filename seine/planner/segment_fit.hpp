@@ -12,7 +12,7 @@ namespace seine::planner {
 struct FitOptions {
   double piece_length = 1.6;      ///< of the curve, car lengths
   double piece_turn = 0.8;        ///< rad of heading change that deserve a piece of their own
-  double shortest_stretch = 0.1;  ///< car lengths: shorter stretches in one gear are left out
+  double shortest_stretch = 0.05; ///< car lengths: shorter stretches in one gear are left out
   double piece_duration = 0.6;    ///< of the progress, in t_a = v_max / a_max
   double shortest_wait = 0.6;     ///< a stop on the way at least this long, in t_a, becomes a rest of its own
   double corridor_reach = 1.0;    ///< car lengths

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "seine/base/error.hpp"
 #include "seine/certify/certificate.hpp"
@@ -13,8 +14,9 @@ namespace seine::planner {
 namespace {
 
 constexpr int kPolishRounds = 8;
-constexpr int kAttempts = 6;
-constexpr double kTick = 0.05;            // of the time a car takes to drive its own length
+constexpr int kStuckRounds = 3, kHopelessRounds = 6;
+constexpr int kAttempts = 8;
+constexpr double kTick = 0.0667;          // of the time a car takes to drive its own length
 constexpr double kCloseGap = 0.25;        // car lengths: cars that come this close are optimised jointly
 constexpr double kPenaltyRaise = 3.0, kMostPenalty = 100.0;
 constexpr double kTightenRaise = 0.005, kMostTighten = 0.03;
@@ -87,6 +89,7 @@ void Session::prepare() {
   demands_.assign(count, {});
   solution_.assign(count, {});
   evaluations_.assign(count, 0);
+  fault_rounds_.assign(count, 0);
   result_.plan.robots.assign(count, {});
   result_.times.corridor += watch.seconds();
 }
@@ -193,8 +196,19 @@ void Session::polish() {
     if (certify() || deadline_.expired()) return;
     const Stopwatch watch;
     report("repair", static_cast<double>(round) / kPolishRounds);
-    const std::vector<Group> groups = raise_demands(round);
+    std::vector<Group> groups = raise_demands(round), stuck;
     if (round > 0) settings_.pair_penalty *= 2.0;
+    // A car that more weight does not help sits in a bad valley: it and its group go back to their guess.
+    const auto rounds_of = [&](const Group& group) {
+      int most = 0;
+      for (const int k : group) most = std::max(most, fault_rounds_[static_cast<std::size_t>(k)]);
+      return most;
+    };
+    for (const Group& group : groups)
+      if (rounds_of(group) >= kHopelessRounds) return;
+    std::ranges::copy_if(groups, std::back_inserter(stuck), [&](const Group& g) { return rounds_of(g) == kStuckRounds; });
+    std::erase_if(groups, [&](const Group& g) { return rounds_of(g) == kStuckRounds; });
+    solve_groups(stuck, Start::gentle_guess);
     solve_groups(groups, Start::solution);
     result_.times.optimise += watch.seconds();
   }
@@ -239,6 +253,7 @@ std::vector<Session::Group> Session::raise_demands(int round) {
         break;
     }
   }
+  for (std::size_t k = 0; k < count; ++k) fault_rounds_[k] = at_fault[k] ? fault_rounds_[k] + 1 : 0;
   std::vector<Group> result = groups.all();
   std::erase_if(result, [&](const Group& group) { return !at_fault[static_cast<std::size_t>(group.front())]; });
   return result;

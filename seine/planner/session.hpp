@@ -57,6 +57,7 @@ class Session {
   int ticks_ = 1;
   std::vector<trajopt::RobotTask> tasks_;
   std::vector<std::vector<double>> solution_;  // per robot: the optimiser's variables
+  std::vector<int> fault_rounds_;              // per robot: rounds in a row in which the certificate blamed it
   std::vector<int> evaluations_;               // per robot: of the last group it was solved in
   std::vector<trajopt::Body> bodies_;          // every robot as it moves now, then the moving obstacles' parts
   std::vector<double> extra_;                  // m, robots × bodies: clearance asked on top of the scenario's

@@ -5,8 +5,11 @@
 namespace seine::trajopt {
 namespace {
 
-// Near pairs are found anew after so many iterations, and at every power of two before, while the steps are large.
-constexpr int kRefreshEvery = 16;
+// Near pairs are found anew after so many iterations, and a few times before, while the steps are large.
+constexpr int kRefreshEvery = 32;
+constexpr bool refresh_at(int iteration) {
+  return iteration % kRefreshEvery == 0 || iteration == 2 || iteration == 6 || iteration == 14;
+}
 // Car lengths beyond the clearance within which a pair is watched at coarse and at all ticks: what two cars can close in between two coarse
 // ticks, and what an iterate moves until the next refresh.
 constexpr double kSkin = 1.0, kClose = 0.5;
@@ -112,7 +115,7 @@ SolveSummary JointProblem::solve(std::span<double> x, const Deadline& deadline, 
     options.past = settings_.past;
     options.blocks.assign(offsets_.begin(), offsets_.end() - 1);
     options.stop = [&](int iteration, double) {
-      if (iteration % kRefreshEvery == 0 || (iteration & (iteration - 1)) == 0) refresh(x);
+      if (refresh_at(iteration)) refresh(x);
       return deadline.expired();
     };
     const optim::LbfgsSummary result = optim::minimize(

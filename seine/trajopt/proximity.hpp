@@ -44,7 +44,7 @@ class Proximity {
   Proximity(std::vector<Shape> shapes, std::vector<const Body*> bodies, std::vector<double> extra, double clearance, int ticks);
 
   /// Every kStride-th tick is a coarse one: who is near whom is judged there.
-  static constexpr int kStride = 4;
+  static constexpr int kStride = 3;
   /// Finds who is near whom. @param states cars × ticks, of which the coarse ones are read  @param skin how far a pair may be apart beyond its
   /// clearance to be watched at coarse ticks; within `close` it is watched at every tick
   void rebuild(std::span<const ClockState> states, double skin, double close);
