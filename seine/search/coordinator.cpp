@@ -56,25 +56,31 @@ Coordinator::Coordinator(const world::Scenario& scenario, const LatticeOptions& 
     for (const MovingPart& part : parts) obstacles_[c].emplace_back(part.shape, part.motion, clocks_[c]);
 }
 
-bool Coordinator::add_way(int robot, Path path) {
-  Car& car = cars_[idx(robot)];
-  auto way = std::make_unique<Way>(Way{SpeedLattice(std::move(path), car.kind->grid, car.kind->footprint,
-                                                    scenario_.robots[idx(robot)].start_speed),
-                                       0.0,
-                                       {},
-                                       {},
-                                       0});
-  if (!way->lattice.drivable()) return false;
+WayPtr Coordinator::make_way(int robot, Path path) const {
+  const Kind& kind = *car(robot).kind;
+  auto way = std::make_shared<Way>(
+      Way{SpeedLattice(std::move(path), kind.grid, kind.footprint, scenario_.robots[idx(robot)].start_speed),
+          0.0,
+          {},
+          {},
+          0});
+  if (!way->lattice.drivable()) return nullptr;
   VelocityWorkspace workspace;
   workspace.occupied.reset(way->lattice, 1);
   constexpr int kEndless = 1 << 20;
   VelocityPlan plan = plan_velocity(way->lattice, workspace, {.ticks = kEndless, .want_reach = true});
-  if (!plan.found) return false;
+  if (!plan.found) return nullptr;
   way->alone = plan.arrival;
   way->reach = std::move(plan.reach);
   way->unhindered = std::move(plan);
   way->serial = ++serial_;
-  car.ways.push_back(std::move(way));
+  return way;
+}
+
+bool Coordinator::add_way(int robot, Path path) {
+  WayPtr way = make_way(robot, std::move(path));
+  if (!way) return false;
+  keep_way(robot, std::move(way));
   return true;
 }
 
@@ -164,37 +170,34 @@ VelocityPlan Coordinator::plan_on(int robot, const Way& way, const TeamState& st
   return plan_velocity(way.lattice, workspace.velocity, {.ticks = horizon, .want_reach = false});
 }
 
-std::shared_ptr<const Placement> Coordinator::placement(int robot, int way, VelocityPlan plan) const {
+std::shared_ptr<const Placement> Coordinator::placement(int robot, const WayPtr& way,
+                                                        VelocityPlan plan) const {
   if (!plan.found) return nullptr;
   auto placement = std::make_shared<Placement>();
   placement->way = way;
   placement->arrival = plan.arrival;
   placement->profile = std::move(plan.profile);
-  const Path& path = ways(robot)[idx(way)]->lattice.path();
-  placement->bodies = bodies_of(path, placement->profile, *car(robot).kind);
+  placement->bodies = bodies_of(way->lattice.path(), placement->profile, *car(robot).kind);
   placement->serial = ++serial_;
   return placement;
 }
 
-std::shared_ptr<const Placement> Coordinator::place_on(int robot, int way, const TeamState& state,
+std::shared_ptr<const Placement> Coordinator::place_on(int robot, const WayPtr& way, const TeamState& state,
                                                        CoordinatorWorkspace& workspace, double latest) const {
-  const Way& on = *ways(robot)[idx(way)];
-  if (on.alone > latest) return nullptr;
-  return placement(robot, way, plan_on(robot, on, state, workspace, latest));
+  if (way->alone > latest) return nullptr;
+  return placement(robot, way, plan_on(robot, *way, state, workspace, latest));
 }
 
 std::shared_ptr<const Placement> Coordinator::place(int robot, const TeamState& state,
                                                     CoordinatorWorkspace& workspace, double latest) const {
-  std::vector<int> order(ways(robot).size());
-  for (std::size_t w = 0; w < order.size(); ++w) order[w] = static_cast<int>(w);
+  std::vector<WayPtr> order = ways(robot);
   std::stable_sort(order.begin(), order.end(),
-                   [&](int a, int b) { return ways(robot)[idx(a)]->alone < ways(robot)[idx(b)]->alone; });
+                   [](const WayPtr& a, const WayPtr& b) { return a->alone < b->alone; });
   VelocityPlan best;
-  int best_way = -1;
-  for (const int way : order) {
-    const Way& on = *ways(robot)[idx(way)];
-    if (on.alone > latest || (best.found && on.alone >= best.arrival)) break;
-    VelocityPlan plan = plan_on(robot, on, state, workspace, latest);
+  WayPtr best_way;
+  for (const WayPtr& way : order) {
+    if (way->alone > latest || (best.found && way->alone >= best.arrival)) break;
+    VelocityPlan plan = plan_on(robot, *way, state, workspace, latest);
     if (!plan.found || (best.found && plan.arrival >= best.arrival)) continue;
     latest = plan.arrival;
     best = std::move(plan);
@@ -203,9 +206,8 @@ std::shared_ptr<const Placement> Coordinator::place(int robot, const TeamState& 
   return placement(robot, best_way, std::move(best));
 }
 
-std::vector<Coordinator::Conflict> Coordinator::conflicts(int robot, int way, const TeamState& state,
+std::vector<Coordinator::Conflict> Coordinator::conflicts(int robot, const Way& on, const TeamState& state,
                                                           CoordinatorWorkspace& workspace) const {
-  const Way& on = *ways(robot)[idx(way)];
   const int parts = static_cast<int>(obstacles_[car(robot).kind->clock].size());
   std::vector<Conflict> found;
   for (int other = -parts; other < robots(); ++other) {
@@ -237,8 +239,8 @@ bool Coordinator::touches(int robot, int other, bool goal) const {
 }
 
 TimedPath Coordinator::motion(int robot, const Placement& placement) const {
-  if (placement.way < 0) return *car(robot).fixed;
-  return {ways(robot)[idx(placement.way)]->lattice.path(), placement.profile};
+  if (!placement.way) return *car(robot).fixed;
+  return {placement.way->lattice.path(), placement.profile};
 }
 
 std::vector<geom::Vec2> Coordinator::footprint_at(int robot, const geom::Pose2& pose) const {

@@ -28,9 +28,11 @@ struct Way {
   std::uint32_t serial = 0;  ///< distinct for all ways and placements
 };
 
+using WayPtr = std::shared_ptr<const Way>;
+
 /// A robot's motion in the team: which way, when. Shared between team states, never changed.
 struct Placement {
-  int way = -1;  ///< −1: its motion was fixed by the caller
+  WayPtr way;  ///< null: its motion was fixed by the caller
   std::vector<ProfileKnot> profile;
   double arrival = 0.0;            ///< s
   std::vector<MovingBody> bodies;  ///< one for each clock of the team
@@ -56,17 +58,19 @@ class Coordinator {
   Coordinator(const world::Scenario& scenario, const LatticeOptions& lattice, double extra_clearance);
 
   int robots() const { return static_cast<int>(cars_.size()); }
-  /// Adds a path for the robot; false when it cannot be driven alone.
-  bool add_way(int robot, Path path);
-  /// Ways may be dropped while no placement uses them.
-  void drop_first_way(int robot) {
+  /// A path made ready for the robot; null when it cannot be driven alone.
+  WayPtr make_way(int robot, Path path) const;
+  /// Ways that `place` chooses from.
+  void keep_way(int robot, WayPtr way) {
+    cars_[static_cast<std::size_t>(robot)].ways.push_back(std::move(way));
+  }
+  void drop_way(int robot, int index) {
     auto& ways = cars_[static_cast<std::size_t>(robot)].ways;
-    ways.erase(ways.begin());
+    ways.erase(ways.begin() + index);
   }
-  void drop_last_way(int robot) { cars_[static_cast<std::size_t>(robot)].ways.pop_back(); }
-  const std::vector<std::unique_ptr<Way>>& ways(int robot) const {
-    return cars_[static_cast<std::size_t>(robot)].ways;
-  }
+  /// make and keep; false when it cannot be driven alone.
+  bool add_way(int robot, Path path);
+  const std::vector<WayPtr>& ways(int robot) const { return car(robot).ways; }
   /// Smallest arrival over its ways when nobody else is there.
   double alone(int robot) const;
   /// The robot keeps this motion.
@@ -78,7 +82,7 @@ class Coordinator {
   std::shared_ptr<const Placement> place(int robot, const TeamState& state, CoordinatorWorkspace& workspace,
                                          double latest = std::numeric_limits<double>::infinity()) const;
   /// The same with one way only.
-  std::shared_ptr<const Placement> place_on(int robot, int way, const TeamState& state,
+  std::shared_ptr<const Placement> place_on(int robot, const WayPtr& way, const TeamState& state,
                                             CoordinatorWorkspace& workspace,
                                             double latest = std::numeric_limits<double>::infinity()) const;
 
@@ -89,7 +93,7 @@ class Coordinator {
     int tick;
     int unit;
   };
-  std::vector<Conflict> conflicts(int robot, int way, const TeamState& state,
+  std::vector<Conflict> conflicts(int robot, const Way& way, const TeamState& state,
                                   CoordinatorWorkspace& workspace) const;
 
   /// Whether somewhere on its first way the robot touches another one that stands at its start, or at its
@@ -109,7 +113,7 @@ class Coordinator {
   };
   struct Car {
     const Kind* kind;
-    std::vector<std::unique_ptr<Way>> ways;
+    std::vector<WayPtr> ways;
     std::optional<TimedPath> fixed;
     std::vector<geom::Vec2> at_start, at_goal;
   };
@@ -122,7 +126,7 @@ class Coordinator {
                               CoordinatorWorkspace& workspace) const;
   VelocityPlan plan_on(int robot, const Way& way, const TeamState& state, CoordinatorWorkspace& workspace,
                        double latest) const;
-  std::shared_ptr<const Placement> placement(int robot, int way, VelocityPlan plan) const;
+  std::shared_ptr<const Placement> placement(int robot, const WayPtr& way, VelocityPlan plan) const;
 
   const world::Scenario& scenario_;
   double extra_clearance_;

@@ -133,7 +133,7 @@ void Guess::leave_tried_ways(Attempt& attempt) const {
     }
     std::optional<Path> path = find_path(robot, bumps, {}, options_.team.detour_expansions);
     if (path && attempt.coordinator->add_way(robot, std::move(*path)))
-      attempt.coordinator->drop_first_way(robot);
+      attempt.coordinator->drop_way(robot, 0);
   }
 }
 

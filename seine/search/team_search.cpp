@@ -36,11 +36,10 @@ bool TeamSearch::late(int robot, double arrival) const {
   return arrival - alone > std::max(options_.late, options_.late_share * alone);
 }
 
-int TeamSearch::fastest_way(int robot) const {
+WayPtr TeamSearch::fastest_way(int robot) const {
   const auto& ways = coordinator_.ways(robot);
-  const auto best = std::min_element(ways.begin(), ways.end(),
-                                     [](const auto& a, const auto& b) { return a->alone < b->alone; });
-  return static_cast<int>(best - ways.begin());
+  return *std::min_element(ways.begin(), ways.end(),
+                           [](const WayPtr& a, const WayPtr& b) { return a->alone < b->alone; });
 }
 
 bool TeamSearch::solve(TeamState& state, const Deadline& deadline, std::span<const int> first_order) {
@@ -94,10 +93,11 @@ void TeamSearch::repair(TeamState& state, const Deadline& deadline) {
     int robot = rng_.below(coordinator_.robots());
     while (state[idx(robot)] || coordinator_.ways(robot).empty()) robot = (robot + 1) % coordinator_.robots();
     const int ways = static_cast<int>(coordinator_.ways(robot).size());
-    const int way = rng_.uniform() < 0.5 ? fastest_way(robot) : rng_.below(ways);
+    const WayPtr way =
+        rng_.uniform() < 0.5 ? fastest_way(robot) : coordinator_.ways(robot)[idx(rng_.below(ways))];
     TeamState trial = state;
     std::vector<int> out;
-    for (const auto& conflict : coordinator_.conflicts(robot, way, state, workspace_)) {
+    for (const auto& conflict : coordinator_.conflicts(robot, *way, state, workspace_)) {
       if (conflict.robot < 0 || coordinator_.fixed(conflict.robot)) continue;
       out.push_back(conflict.robot);
       trial[idx(conflict.robot)] = nullptr;
@@ -125,26 +125,22 @@ TeamSearch::Placed TeamSearch::place(int robot, const TeamState& state) {
 
 // Passes the first robot it meets on the other side, or further out.
 TeamSearch::Placed TeamSearch::side_step(int robot, const TeamState& state, Placed best, double latest) {
-  if (!sources_.side_step || static_cast<int>(coordinator_.ways(robot).size()) >= options_.most_ways)
-    return best;
-  const int way = best ? best->way : fastest_way(robot);
-  const auto conflicts = coordinator_.conflicts(robot, way, state, workspace_);
+  if (!sources_.side_step) return best;
+  const WayPtr way = best ? best->way : fastest_way(robot);
+  const auto conflicts = coordinator_.conflicts(robot, *way, state, workspace_);
   if (conflicts.empty()) return best;
   const world::Scenario& scenario = coordinator_.scenario();
   const double width = scenario.model_of(scenario.robots[idx(robot)]).width() + scenario.margins.robot;
-  const Path path = coordinator_.ways(robot)[idx(way)]->lattice.path();
-  const double s = coordinator_.ways(robot)[idx(way)]->lattice.s_at(conflicts.front().unit);
+  const double s = way->lattice.s_at(conflicts.front().unit);
   for (const double offset : {-1.15 * width, 1.15 * width, -2.3 * width, 2.3 * width}) {
-    std::optional<Path> beside = sources_.side_step(robot, path, s, offset);
-    if (!beside || !coordinator_.add_way(robot, std::move(*beside))) continue;
+    const WayPtr beside = way_of(robot, sources_.side_step(robot, way->lattice.path(), s, offset));
+    if (!beside) continue;
     ++effort_.side_steps;
     if (best) latest = std::min(latest, best->arrival - 1e-3);
-    const int added = static_cast<int>(coordinator_.ways(robot).size()) - 1;
-    Placed placed = coordinator_.place_on(robot, added, state, workspace_, latest);
-    if (!placed)
-      coordinator_.drop_last_way(robot);
-    else
-      best = placed;
+    const Placed placed = coordinator_.place_on(robot, beside, state, workspace_, latest);
+    if (!placed) continue;
+    keep(robot, beside);
+    best = placed;
   }
   return best;
 }
@@ -152,21 +148,22 @@ TeamSearch::Placed TeamSearch::side_step(int robot, const TeamState& state, Plac
 // Other paths, pushed away from where the unhindered drive meets the others; the pushes add up.
 TeamSearch::Placed TeamSearch::detour(int robot, const TeamState& state, Placed best, int tries) {
   const world::Scenario& scenario = coordinator_.scenario();
-  const double radius = options_.bump_lengths * scenario.model_of(scenario.robots[idx(robot)]).length();
+  const double length = scenario.model_of(scenario.robots[idx(robot)]).length();
   std::vector<Bump> bumps;
-  int way = best ? best->way : fastest_way(robot);
-  for (int i = 0; i < tries && may_search(robot); ++i) {
-    const auto conflicts = coordinator_.conflicts(robot, way, state, workspace_);
+  WayPtr way = best ? best->way : fastest_way(robot);
+  for (int i = 0; i < tries && may_search(); ++i) {
+    const auto conflicts = coordinator_.conflicts(robot, *way, state, workspace_);
     if (conflicts.empty()) break;
-    const SpeedLattice& lattice = coordinator_.ways(robot)[idx(way)]->lattice;
-    const geom::Pose2 there = pose_at(lattice.path(), lattice.s_at(conflicts.front().unit));
+    const geom::Pose2 there = pose_at(way->lattice.path(), way->lattice.s_at(conflicts.front().unit));
     bumps.push_back(
-        {there * geom::Vec2{0.5 * radius / options_.bump_lengths, 0.0}, radius, options_.bump_weight});
+        {there * geom::Vec2{0.5 * length, 0.0}, options_.bump_lengths * length, options_.bump_weight});
     ++effort_.paths;
-    if (!add_way(robot, sources_.search(robot, bumps, {}, options_.detour_expansions))) continue;
-    way = static_cast<int>(coordinator_.ways(robot).size()) - 1;
-    if (best && coordinator_.ways(robot).back()->alone >= best->arrival) continue;
-    Placed placed = coordinator_.place_on(robot, way, state, workspace_);
+    const WayPtr around = way_of(robot, sources_.search(robot, bumps, {}, options_.detour_expansions));
+    if (!around) continue;
+    way = around;
+    keep(robot, way);
+    if (best && way->alone >= best->arrival) continue;
+    const Placed placed = coordinator_.place_on(robot, way, state, workspace_);
     if (placed && (!best || placed->arrival < best->arrival)) best = placed;
     if (best && !late(robot, best->arrival)) break;
   }
@@ -175,7 +172,7 @@ TeamSearch::Placed TeamSearch::detour(int robot, const TeamState& state, Placed 
 
 // A path that keeps off everybody who has no motion yet and, if asked for, off all goals.
 TeamSearch::Placed TeamSearch::around_the_parked(int robot, const TeamState& state, bool goals) {
-  if (!may_search(robot)) return nullptr;
+  if (!may_search()) return nullptr;
   const world::Scenario& scenario = coordinator_.scenario();
   const auto own_start = coordinator_.footprint_at(robot, scenario.robots[idx(robot)].start);
   const auto own_goal = coordinator_.footprint_at(robot, scenario.robots[idx(robot)].goal);
@@ -190,19 +187,25 @@ TeamSearch::Placed TeamSearch::around_the_parked(int robot, const TeamState& sta
     if (!state[idx(other)]) park(coordinator_.footprint_at(other, scenario.robots[idx(other)].start));
   }
   ++effort_.paths;
-  if (!add_way(robot, sources_.search(robot, {}, parked, 4 * options_.detour_expansions))) return nullptr;
-  return coordinator_.place_on(robot, static_cast<int>(coordinator_.ways(robot).size()) - 1, state,
-                               workspace_);
+  const WayPtr way = way_of(robot, sources_.search(robot, {}, parked, 4 * options_.detour_expansions));
+  if (!way) return nullptr;
+  keep(robot, way);
+  return coordinator_.place_on(robot, way, state, workspace_);
 }
 
-bool TeamSearch::may_search(int robot) const {
-  return sources_.search && effort_.paths < searches_ &&
-         static_cast<int>(coordinator_.ways(robot).size()) < options_.most_ways;
+bool TeamSearch::may_search() const {
+  return sources_.search && effort_.paths < searches_;
 }
 
-bool TeamSearch::add_way(int robot, std::optional<Path> path) {
-  if (!path) return false;
-  return coordinator_.add_way(robot, std::move(*path));
+WayPtr TeamSearch::way_of(int robot, const std::optional<Path>& path) const {
+  return path ? coordinator_.make_way(robot, *path) : nullptr;
+}
+
+// When there are too many, another one than the first goes.
+void TeamSearch::keep(int robot, const WayPtr& way) {
+  const int count = static_cast<int>(coordinator_.ways(robot).size());
+  if (count >= options_.most_ways) coordinator_.drop_way(robot, 1 + rng_.below(count - 1));
+  coordinator_.keep_way(robot, way);
 }
 
 // Puts the group back, one after the other; false as soon as somebody cannot go, or the sum of their arrivals
@@ -266,7 +269,7 @@ int TeamSearch::pick_late(const TeamState& state) {
 // The late robot and some of those in its way, in a random order that puts it first more often than not.
 std::vector<int> TeamSearch::group_around(int robot, const TeamState& state) {
   std::vector<int> group{robot};
-  for (const auto& conflict : coordinator_.conflicts(robot, fastest_way(robot), state, workspace_)) {
+  for (const auto& conflict : coordinator_.conflicts(robot, *fastest_way(robot), state, workspace_)) {
     if (static_cast<int>(group.size()) > options_.neighbours) break;
     if (conflict.robot >= 0 && !coordinator_.fixed(conflict.robot)) group.push_back(conflict.robot);
   }

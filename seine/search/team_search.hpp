@@ -70,13 +70,14 @@ class TeamSearch {
                    double latest = std::numeric_limits<double>::infinity());
   Placed detour(int robot, const TeamState& state, Placed best, int tries);
   Placed around_the_parked(int robot, const TeamState& state, bool goals);
-  bool may_search(int robot) const;
+  bool may_search() const;
   Placed place_somehow(int robot, const TeamState& state);
   void repair(TeamState& state, const Deadline& deadline);
   void shuffle(std::vector<int>& list, int from);
-  bool add_way(int robot, std::optional<Path> path);
+  WayPtr way_of(int robot, const std::optional<Path>& path) const;
+  void keep(int robot, const WayPtr& way);
   bool late(int robot, double arrival) const;
-  int fastest_way(int robot) const;
+  WayPtr fastest_way(int robot) const;
   std::vector<int> group_around(int robot, const TeamState& state);
   bool replace_group(const std::vector<int>& group, TeamState& state, double limit);
   int pick_late(const TeamState& state);
