@@ -297,6 +297,7 @@ LatticeResult Lattice::run() {
     expand(index);
   }
   if (best_node_ >= 0) result.route = route();
+  result.exhausted = best_node_ < 0 && open_.empty();
   result.unreachable = best_node_ < 0 && node(0).left == kInfinity;
   return result;
 }

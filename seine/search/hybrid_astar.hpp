@@ -15,10 +15,10 @@ struct LatticeSettings {
   double step = 0.8;      ///< m driven per move
   double min_step = 0.8;  ///< m: a move that is blocked is tried at half its length, and so on down to this
   double cell = 0.45;     ///< m, side of a position bin
-  bool gears_apart = false;     ///< whether arriving forwards and arriving backwards are different bins
-  int headings = 24;      ///< heading bins
-  int forward = 5;        ///< curvatures tried forwards (odd)
-  int backward = 3;       ///< and backwards
+  bool gears_apart = false;  ///< whether arriving forwards and arriving backwards are different bins
+  int headings = 24;         ///< heading bins
+  int forward = 5;           ///< curvatures tried forwards (odd)
+  int backward = 3;          ///< and backwards
   double heuristic_weight = 1.3;
   int max_expansions = 2000;
 };
@@ -37,6 +37,8 @@ struct LatticeProblem {
 struct LatticeResult {
   std::optional<Route> route;
   int expansions = 0;
+  bool exhausted =
+      false;  ///< every node that can be reached was looked at: moves are too long, or there is no way
   bool unreachable = false;  ///< proved: not even a disc inside the footprint has a way
 };
 

@@ -35,31 +35,54 @@ enum class Gaps {
   exact,  // on the fine grid
 };
 
-/// One rung of the ladder of searches: from coarse and quick to fine and patient.
+/// One rung of the ladder of searches, from coarse and quick to fine and patient. The defaults are for open
+/// ground: a dozen expansions where the straight shot is blocked.
 struct Rung {
-  double radius;          // of the smallest turning radius
-  double step, min_step;  // turning radii
-  double cell;            // turning radii
-  int headings;
-  bool gears_apart;
-  int forward, backward;
-  double slack;        // of the full slack
-  double gear_change;  // turning radii
-  double share;        // of the expansions allowed
-  Gaps gaps;
-  bool from_tighter_end;  // the way out of a tight place is easier to find than the way in
+  double radius = 1.1;                // of the smallest turning radius
+  double step = 0.8, min_step = 0.8;  // turning radii
+  double cell = 0.45;                 // turning radii
+  int headings = 24;
+  bool gears_apart = false;
+  int forward = 5, backward = 3;
+  double slack = 1.0;        // of the full slack
+  double gear_change = 2.0;  // turning radii
+  double share = 0.02;       // of the expansions allowed
+  Gaps gaps = Gaps::quick;
+  bool for_slots = false;
+  bool from_tighter_end = false;  // the way out of a tight place is easier to find than the way in
 };
 constexpr Rung kLadder[] = {
-    // Open ground: a dozen expansions where the straight shot is blocked.
-    {1.1, 0.8, 0.8, 0.45, 24, false, 5, 3, 1.0, 2.0, 0.02, Gaps::quick, false},
+    {},
     // Buildings where the shortest way turns out to be too narrow.
-    {1.1, 0.8, 0.8, 0.45, 24, false, 5, 3, 1.0, 2.0, 0.03, Gaps::wary, false},
+    {.share = 0.03, .gaps = Gaps::wary},
     // Parking, narrow doors.
-    {1.02, 0.4, 0.4, 0.2, 36, false, 5, 5, 0.2, 0.5, 0.3, Gaps::exact, true},
+    {.radius = 1.02,
+     .step = 0.4,
+     .min_step = 0.4,
+     .cell = 0.2,
+     .headings = 36,
+     .backward = 5,
+     .slack = 0.2,
+     .gear_change = 0.5,
+     .share = 0.3,
+     .gaps = Gaps::exact,
+     .from_tighter_end = true},
     // Slots that take a dozen moves of a few centimetres.
-    {1.0, 0.2, 0.002, 0.006, 500, true, 3, 3, 0.02, 0.05, 0.6, Gaps::exact, true},
+    {.radius = 1.0,
+     .step = 0.2,
+     .min_step = 0.002,
+     .cell = 0.006,
+     .headings = 500,
+     .gears_apart = true,
+     .forward = 3,
+     .slack = 0.02,
+     .gear_change = 0.05,
+     .share = 0.6,
+     .gaps = Gaps::exact,
+     .for_slots = true,
+     .from_tighter_end = true},
     // The second once more, for as long as it takes.
-    {1.1, 0.8, 0.8, 0.45, 24, false, 5, 3, 1.0, 2.0, 1.0, Gaps::wary, false},
+    {.share = 1.0, .gaps = Gaps::wary},
 };
 
 }  // namespace
@@ -171,9 +194,11 @@ std::optional<Path> PathPlanner::Impl::plan(const geom::Pose2& start, const geom
   if (std::min(room_start, room_goal) < -kTouch) return std::nullopt;
 
   int left = options.max_expansions;
+  // Whether there may be an end that can only be left or reached by moves shorter than a step.
+  bool slot = std::min(room_start, room_goal) < kTightSlot * length;
   for (const Rung& rung : kLadder) {
     if (left <= 0 || options.deadline.expired()) break;
-    if (rung.gears_apart && std::min(room_start, room_goal) > kTightSlot * length) continue;
+    if (rung.for_slots && !slot) continue;
     FootprintChecker checker = free;
     const double slack = rung.slack * kSlack * length;
     checker.set_slack(slack);
@@ -191,6 +216,7 @@ std::optional<Path> PathPlanner::Impl::plan(const geom::Pose2& start, const geom
       return sampled(route, kPathSpacing * length);
     }
     left -= result.expansions;
+    slot = slot || result.exhausted;
   }
   return std::nullopt;
 }
