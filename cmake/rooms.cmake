@@ -3,7 +3,7 @@
 add_library(seine_flags INTERFACE)
 # Strict IEEE arithmetic stays (results are reproducible); only errno and trap semantics, which block vectorisation, go.
 target_compile_options(seine_flags INTERFACE
-  -Wall -Wextra -Wconversion -Wshadow -Werror -fno-math-errno -fno-trapping-math -fopenmp-simd
+  -Wall -Wextra -Wno-missing-field-initializers -Wconversion -Wshadow -Werror -fno-math-errno -fno-trapping-math -fopenmp-simd
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)  # false positives on std::string in GCC 12 (bug 105651)
 if(SEINE_SANITIZE)
   target_compile_options(seine_flags INTERFACE -fsanitize=${SEINE_SANITIZE} -fno-omit-frame-pointer)
