@@ -90,11 +90,11 @@ SideStep::SideStep(const world::StaticMap& map, const vehicle::Model& model, dou
   checker_.set_slack(kSlack * model.length());
 }
 
-std::optional<Path> SideStep::around(const Path& path, double s, double offset) const {
+std::optional<Path> SideStep::around(const Path& path, double s, double offset, double beside_for) const {
   const double length = model_.length();
   const auto [begin, end] = stretch_around(path, s);
-  const double first = std::max(s - kBeside * length, begin + kShortest * length);
-  const double last = std::min(s + kBeside * length, end - kShortest * length);
+  const double first = std::max(s - beside_for, begin + kShortest * length);
+  const double last = std::min(s + beside_for, end - kShortest * length);
   if (first > last || gear_at(path, s) < 0) return std::nullopt;
   const double from = std::max(first - kTransition * length, begin),
                to = std::min(last + kTransition * length, end);

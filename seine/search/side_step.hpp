@@ -16,9 +16,10 @@ class SideStep {
   /// @param clearance m, to static obstacles and bounds
   SideStep(const world::StaticMap& map, const vehicle::Model& model, double clearance);
 
-  /// `path` shifted by `offset` m to the left (negative: right) around its driven length `s`; nothing when
-  /// the place is too close to an end of its stretch, driven backwards, or not free.
-  std::optional<Path> around(const Path& path, double s, double offset) const;
+  /// `path` shifted by `offset` m to the left (negative: right) from `beside` m before to `beside` m after
+  /// its driven length `s`; nothing when the place is too close to an end of its stretch, driven backwards,
+  /// or not free.
+  std::optional<Path> around(const Path& path, double s, double offset, double beside) const;
 
  private:
   vehicle::Model model_;

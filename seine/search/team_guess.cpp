@@ -82,8 +82,8 @@ std::optional<Path> Guess::find_path(int robot, std::span<const Bump> bumps,
 TeamSearch::Sources Guess::sources() const {
   return {[this](int robot, std::span<const Bump> bumps, std::span<const std::vector<geom::Vec2>> parked,
                  int expansions) { return find_path(robot, bumps, parked, expansions); },
-          [this](int robot, const Path& path, double s, double offset) {
-            return side_steps_[idx(scenario_.robots[idx(robot)].model)].around(path, s, offset);
+          [this](int robot, const Path& path, double s, double offset, double beside) {
+            return side_steps_[idx(scenario_.robots[idx(robot)].model)].around(path, s, offset, beside);
           }};
 }
 

@@ -29,7 +29,8 @@ TeamSearch::TeamSearch(Coordinator& coordinator, Sources sources, const TeamSear
       sources_(std::move(sources)),
       options_(options),
       rng_(seed),
-      precedence_(coordinator) {}
+      precedence_(coordinator),
+      futile_(static_cast<std::size_t>(coordinator.robots()), 0) {}
 
 bool TeamSearch::late(int robot, double arrival) const {
   const double alone = coordinator_.alone(robot);
@@ -130,18 +131,27 @@ TeamSearch::Placed TeamSearch::side_step(int robot, const TeamState& state, Plac
   const auto conflicts = coordinator_.conflicts(robot, *way, state, workspace_);
   if (conflicts.empty()) return best;
   const world::Scenario& scenario = coordinator_.scenario();
-  const double width = scenario.model_of(scenario.robots[idx(robot)]).width() + scenario.margins.robot;
+  const vehicle::Model& model = scenario.model_of(scenario.robots[idx(robot)]);
+  const double width = model.width() + scenario.margins.robot, length = model.length();
+  constexpr double kLane = 4.0;  // car lengths
   const double s = way->lattice.s_at(conflicts.front().unit);
-  for (const double offset : {-1.15 * width, 1.15 * width, -2.3 * width, 2.3 * width}) {
-    const WayPtr beside = way_of(robot, sources_.side_step(robot, way->lattice.path(), s, offset));
-    if (!beside) continue;
+  const auto attempt = [&](double offset, double beside_for) {
+    const WayPtr beside =
+        way_of(robot, sources_.side_step(robot, way->lattice.path(), s, offset, beside_for));
+    if (!beside) return false;
     ++effort_.side_steps;
     if (best) latest = std::min(latest, best->arrival - 1e-3);
     const Placed placed = coordinator_.place_on(robot, beside, state, workspace_, latest);
-    if (!placed) continue;
+    if (!placed) return false;
     keep(robot, beside);
     best = placed;
-  }
+    return true;
+  };
+  bool found = false;
+  for (const double offset : {-1.15, 1.15, -2.3, 2.3}) found = attempt(offset * width, length) || found;
+  // Where lanes are narrow half a width is all there is, and it takes a while to pass.
+  if (!found)
+    for (const double offset : {-0.6, 0.6, -1.15, 1.15}) attempt(offset * width, kLane * length);
   return best;
 }
 
@@ -172,7 +182,8 @@ TeamSearch::Placed TeamSearch::detour(int robot, const TeamState& state, Placed 
 
 // A path that keeps off everybody who has no motion yet and, if asked for, off all goals.
 TeamSearch::Placed TeamSearch::around_the_parked(int robot, const TeamState& state, bool goals) {
-  if (!may_search()) return nullptr;
+  constexpr int kMostFailures = 2;
+  if (!may_search() || futile_[idx(robot)] >= kMostFailures) return nullptr;
   const world::Scenario& scenario = coordinator_.scenario();
   const auto own_start = coordinator_.footprint_at(robot, scenario.robots[idx(robot)].start);
   const auto own_goal = coordinator_.footprint_at(robot, scenario.robots[idx(robot)].goal);
@@ -187,7 +198,8 @@ TeamSearch::Placed TeamSearch::around_the_parked(int robot, const TeamState& sta
     if (!state[idx(other)]) park(coordinator_.footprint_at(other, scenario.robots[idx(other)].start));
   }
   ++effort_.paths;
-  const WayPtr way = way_of(robot, sources_.search(robot, {}, parked, 4 * options_.detour_expansions));
+  const WayPtr way = way_of(robot, sources_.search(robot, {}, parked, options_.parked_expansions));
+  if (!way) ++futile_[idx(robot)];
   if (!way) return nullptr;
   keep(robot, way);
   return coordinator_.place_on(robot, way, state, workspace_);

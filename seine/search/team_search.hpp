@@ -17,14 +17,15 @@ namespace seine::search {
 
 /// How much is tried. All budgets are counts, not seconds, so that the answer does not depend on the machine.
 struct TeamSearchOptions {
-  int passes = 4;               ///< priority passes, each with its repairs, until everybody has a motion
-  int repairs_each = 12;        ///< rounds of repair for each robot that a pass leaves without a motion
-  int detour_tries = 3;         ///< paths asked for when a robot cannot go at all
-  int detour_expansions = 150;  ///< of one such search
+  int passes = 4;                 ///< priority passes, each with its repairs, until everybody has a motion
+  int repairs_each = 12;          ///< rounds of repair for each robot that a pass leaves without a motion
+  int detour_tries = 3;           ///< paths asked for when a robot cannot go at all
+  int detour_expansions = 150;    ///< of one such search
+  int parked_expansions = 10000;  ///< of a search around everybody who stands: tight places need patience
   double late = 1.0;  ///< s, a delay worth a detour, or `late_share` of the time alone when that is longer
   double late_share = 0.2;
   int most_ways = 8;             ///< kept for one robot
-  double rounds = 3.0;           ///< neighbourhoods tried for each robot after everybody has a motion
+  double rounds = 2.0;           ///< neighbourhoods tried for each robot after everybody has a motion
   double rescuing_paths = 3.0;   ///< paths searched for, at most, for each robot until everybody has a motion
   double improving_paths = 0.1;  ///< paths asked for in that time, for each robot
   int neighbours = 4;            ///< robots taken out together with the late one
@@ -43,8 +44,10 @@ class TeamSearch {
     std::function<std::optional<Path>(int robot, std::span<const Bump> bumps,
                                       std::span<const std::vector<geom::Vec2>> parked, int expansions)>
         search;
-    /// The path shifted to the left by `offset` m around its driven length s.
-    std::function<std::optional<Path>(int robot, const Path& path, double s, double offset)> side_step;
+    /// The path shifted to the left by `offset` m from `beside` m before to `beside` m after its driven
+    /// length s.
+    std::function<std::optional<Path>(int robot, const Path& path, double s, double offset, double beside)>
+        side_step;
   };
 
   TeamSearch(Coordinator& coordinator, Sources sources, const TeamSearchOptions& options, std::uint64_t seed);
@@ -89,7 +92,8 @@ class TeamSearch {
   Precedence precedence_;
   CoordinatorWorkspace workspace_;
   Effort effort_;
-  int searches_ = 0;  // effort_.paths may not grow beyond
+  std::vector<int> futile_;  // by robot: searches around the parked that found nothing
+  int searches_ = 0;         // effort_.paths may not grow beyond
 };
 
 /// Σ arrival over the robots that have a motion, s.
