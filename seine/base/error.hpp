@@ -11,7 +11,8 @@ class Error : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Something the user gave is wrong: a file, a value, an option. `what()` is one line that names the place and what was expected.
+/// Something the user gave is wrong: a file, a value, an option. `what()` is one line that names the place
+/// and what was expected.
 class InputError : public Error {
  public:
   using Error::Error;

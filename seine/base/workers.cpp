@@ -8,8 +8,8 @@ namespace {
 
 constexpr int kIndexBits = 24;
 constexpr std::uint64_t kIndexMask = (1ULL << kIndexBits) - 1;
-// Rounds follow each other within microseconds while a problem is being solved; a thread that slept in between would cost more than
-// the work. After this many idle spins (some 50 µs) it does sleep.
+// Rounds follow each other within microseconds while a problem is being solved; a thread that slept in
+// between would cost more than the work. After this many idle spins (some 50 µs) it does sleep.
 constexpr int kSpins = 20000;
 
 void pause_briefly() {

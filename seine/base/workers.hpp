@@ -10,9 +10,9 @@
 
 namespace seine {
 
-/// A few threads that run the same function over a range of indices, many thousand times a second. The calling thread works too. Which
-/// thread takes which index is left open: callers write to places that depend on the index only, so results never depend on the
-/// number of threads. The function must not throw.
+/// A few threads that run the same function over a range of indices, many thousand times a second. The
+/// calling thread works too. Which thread takes which index is left open: callers write to places that depend
+/// on the index only, so results never depend on the number of threads. The function must not throw.
 class Workers {
  public:
   /// @param threads how many work at once, the caller included; 0 means as many as the machine has.
@@ -41,8 +41,8 @@ class Workers {
   void loop();
 
   std::vector<std::thread> threads_;
-  // The round number (high bits) and the next free index (low bits) share one word, so that a late thread can never take an index of a
-  // round it has not seen begin.
+  // The round number (high bits) and the next free index (low bits) share one word, so that a late thread can
+  // never take an index of a round it has not seen begin.
   std::atomic<std::uint64_t> next_{0};
   std::atomic<int> unfinished_{0};
   std::atomic<std::uint64_t> round_{0};

@@ -9,7 +9,8 @@ using geom::Vec2;
 constexpr std::size_t kMaxVertices = 64;
 
 // Footprint in the world; the result points into `storage`.
-std::span<const Vec2> place(Vec2 p, Vec2 d, std::span<const Vec2> body, std::array<Vec2, kMaxVertices>& storage) {
+std::span<const Vec2> place(Vec2 p, Vec2 d, std::span<const Vec2> body,
+                            std::array<Vec2, kMaxVertices>& storage) {
   for (std::size_t i = 0; i < body.size(); ++i)
     storage[i] = {p.x + d.x * body[i].x - d.y * body[i].y, p.y + d.y * body[i].x + d.x * body[i].y};
   return {storage.data(), body.size()};

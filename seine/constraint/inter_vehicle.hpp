@@ -6,11 +6,12 @@
 
 namespace seine::constraint {
 
-/// A rectangular footprint in the world: the car's reference point, its unit heading, and the rectangle in the body frame.
+/// A rectangular footprint in the world: the car's reference point, its unit heading, and the rectangle in
+/// the body frame.
 struct OrientedBox {
   geom::Vec2 position;
   geom::Vec2 direction;
-  double offset;       ///< of the rectangle's middle along the heading
+  double offset;  ///< of the rectangle's middle along the heading
   double half_length;
   double half_width;
 };
@@ -34,8 +35,8 @@ inline BoxFrame frame_of(const OrientedBox& box) {
 /// A corner of one box and its nearest point on the other, when the boxes are apart.
 struct NearestCorner {
   double squared = 1e300;
-  geom::Vec2 corner;   ///< signs of the corner along and across its own box
-  geom::Vec2 normal;   ///< from the other box to the corner, not normalised
+  geom::Vec2 corner;  ///< signs of the corner along and across its own box
+  geom::Vec2 normal;  ///< from the other box to the corner, not normalised
 };
 
 inline NearestCorner nearest_corner(const BoxFrame& owner, const BoxFrame& other) {
@@ -46,22 +47,26 @@ inline NearestCorner nearest_corner(const BoxFrame& owner, const BoxFrame& other
     for (const double sw : {-1.0, 1.0}) {
       const geom::Vec2 p = delta + sl * l + sw * w;
       const double x = geom::dot(p, other.along), y = geom::dot(p, other.across);
-      const double dx = x > other.half_length ? x - other.half_length : (x < -other.half_length ? x + other.half_length : 0.0);
-      const double dy = y > other.half_width ? y - other.half_width : (y < -other.half_width ? y + other.half_width : 0.0);
+      const double dx = x > other.half_length ? x - other.half_length
+                                              : (x < -other.half_length ? x + other.half_length : 0.0);
+      const double dy =
+          y > other.half_width ? y - other.half_width : (y < -other.half_width ? y + other.half_width : 0.0);
       const double squared = dx * dx + dy * dy;
       if (squared < best.squared) best = {squared, {sl, sw}, dx * other.along + dy * other.across};
     }
   return best;
 }
 
-/// Penetrating boxes: the letter's signed distance of two convex polygons [Pei24], for rectangles in closed form: the largest (least negative)
-/// gap over the four face normals, along a face normal e of a  |δ·e| − h_e − (H_b |e·d_b| + W_b |e·n_b|),  δ = middle of b − middle of a.
+/// Penetrating boxes: the letter's signed distance of two convex polygons [Pei24], for rectangles in closed
+/// form: the largest (least negative) gap over the four face normals, along a face normal e of a  |δ·e| − h_e
+/// − (H_b |e·d_b| + W_b |e·n_b|),  δ = middle of b − middle of a.
 inline double separating_gap(const OrientedBox& a, const OrientedBox& b, PairGradient& gradient) {
   using geom::cross, geom::dot, geom::Vec2;
   const Vec2 da = a.direction, db = b.direction, na{-da.y, da.x}, nb{-db.y, db.x};
   const Vec2 delta = (b.position + b.offset * db) - (a.position + a.offset * da);
   const double C = dot(da, db), S = cross(da, db), abs_c = std::abs(C), abs_s = std::abs(S);
-  const double along_a = dot(delta, da), across_a = dot(delta, na), along_b = dot(delta, db), across_b = dot(delta, nb);
+  const double along_a = dot(delta, da), across_a = dot(delta, na), along_b = dot(delta, db),
+               across_b = dot(delta, nb);
   const double gap[4] = {std::abs(along_a) - a.half_length - (b.half_length * abs_c + b.half_width * abs_s),
                          std::abs(across_a) - a.half_width - (b.half_length * abs_s + b.half_width * abs_c),
                          std::abs(along_b) - b.half_length - (a.half_length * abs_c + a.half_width * abs_s),
@@ -89,9 +94,10 @@ inline double separating_gap(const OrientedBox& a, const OrientedBox& b, PairGra
   return gap[face];
 }
 
-/// The signed distance of two rectangular footprints: Euclidean when they are apart (a corner of one is nearest to the other), minus the smallest
-/// penetration along a face normal when they overlap. Continuous; kinked where the nearest features change, which the line search copes
-/// with. The separating gap alone would be a lower bound that dips sharply, and between samples unseen, when corners pass each other.
+/// The signed distance of two rectangular footprints: Euclidean when they are apart (a corner of one is
+/// nearest to the other), minus the smallest penetration along a face normal when they overlap. Continuous;
+/// kinked where the nearest features change, which the line search copes with. The separating gap alone would
+/// be a lower bound that dips sharply, and between samples unseen, when corners pass each other.
 inline double inter_vehicle(const OrientedBox& a, const OrientedBox& b, PairGradient& gradient) {
   const double gap = separating_gap(a, b, gradient);
   if (gap <= 0.0) return gap;
@@ -100,13 +106,15 @@ inline double inter_vehicle(const OrientedBox& a, const OrientedBox& b, PairGrad
   const bool corner_of_a = of_a.squared < of_b.squared;
   const NearestCorner& nearest = corner_of_a ? of_a : of_b;
   const double distance = std::sqrt(nearest.squared);
-  // Unit from b to a, and the two witnesses relative to the cars' reference points; both ride with their cars (envelope theorem).
+  // Unit from b to a, and the two witnesses relative to the cars' reference points; both ride with their cars
+  // (envelope theorem).
   const geom::Vec2 normal = ((corner_of_a ? 1.0 : -1.0) / distance) * nearest.normal;
   const BoxFrame& owner = corner_of_a ? fa : fb;
   const geom::Vec2 corner = owner.middle + nearest.corner.x * owner.half_length * owner.along +
                             nearest.corner.y * owner.half_width * owner.across;
   const geom::Vec2 foot = corner - nearest.normal;
-  const geom::Vec2 arm_a = (corner_of_a ? corner : foot) - a.position, arm_b = (corner_of_a ? foot : corner) - b.position;
+  const geom::Vec2 arm_a = (corner_of_a ? corner : foot) - a.position,
+                   arm_b = (corner_of_a ? foot : corner) - b.position;
   // ∂/∂d of n·(R(d) c), c the arm in the body frame.
   const auto turn = [](geom::Vec2 n, geom::Vec2 arm, geom::Vec2 d) {
     const geom::Vec2 c{geom::dot(d, arm), geom::cross(d, arm)};

@@ -29,7 +29,8 @@ void draw_curve(Rng& rng, std::span<double> x) {
   x[0] = length * std::cos(angle), x[1] = length * std::sin(angle);
 }
 
-// Two cars (position, direction each) a few lengths apart; directions need not be unit for the gradient to be right.
+// Two cars (position, direction each) a few lengths apart; directions need not be unit for the gradient to be
+// right.
 void draw_pair(Rng& rng, std::span<double> x) {
   for (std::size_t car = 0; car < x.size() / 4; ++car) {
     const double angle = rng.uniform(-3.0, 3.0);
@@ -85,7 +86,8 @@ double inter_vehicle_entry(std::span<const double> x, std::span<double> g) {
   // The distance is of a rigid motion: only unit directions are meant, so the inputs are angles.
   const Vec2 da = geom::unit(x[2]), db = geom::unit(x[5]);
   PairGradient d;
-  const double value = inter_vehicle({{x[0], x[1]}, da, 0.2, 0.5, 0.3}, {{x[3], x[4]}, db, -0.1, 0.7, 0.2}, d);
+  const double value =
+      inter_vehicle({{x[0], x[1]}, da, 0.2, 0.5, 0.3}, {{x[3], x[4]}, db, -0.1, 0.7, 0.2}, d);
   put(g, {d.position_a});
   g[2] = geom::cross(da, d.direction_a);
   g[3] = d.position_b.x, g[4] = d.position_b.y;

@@ -16,10 +16,10 @@ struct GradientCheck {
   int index = -1;      ///< where
 };
 
-/// Compares `gradient` (of f at x) with central differences on a ladder of steps, taking for each entry the step that agrees best: too long a
-/// step sees curvature, too short a one sees rounding.
-inline GradientCheck check_gradient(const std::function<double(std::span<const double>)>& f, std::span<const double> x,
-                                    std::span<const double> gradient) {
+/// Compares `gradient` (of f at x) with central differences on a ladder of steps, taking for each entry the
+/// step that agrees best: too long a step sees curvature, too short a one sees rounding.
+inline GradientCheck check_gradient(const std::function<double(std::span<const double>)>& f,
+                                    std::span<const double> x, std::span<const double> gradient) {
   std::vector<double> moved(x.begin(), x.end());
   double scale = 1.0;
   for (const double g : gradient) scale = std::max(scale, std::abs(g));

@@ -36,8 +36,13 @@ double largest(std::span<const double> a) {
 class BlockMemory {
  public:
   BlockMemory(std::size_t begin, std::size_t size, int memory)
-      : begin_(begin), size_(size), slots_(static_cast<std::size_t>(memory)), steps_(slots_ * size), changes_(slots_ * size),
-        rho_(slots_), alpha_(slots_) {}
+      : begin_(begin),
+        size_(size),
+        slots_(static_cast<std::size_t>(memory)),
+        steps_(slots_ * size),
+        changes_(slots_ * size),
+        rho_(slots_),
+        alpha_(slots_) {}
 
   void push(std::span<const double> step, std::span<const double> change) {
     const auto s = step.subspan(begin_, size_), y = change.subspan(begin_, size_);
@@ -87,14 +92,19 @@ class BlockMemory {
 class Minimizer {
  public:
   Minimizer(const Objective& objective, std::span<double> x, const LbfgsOptions& options)
-      : objective_(objective), options_(options), x_(x), gradient_(x.size()), trial_(x.size()), trial_gradient_(x.size()),
+      : objective_(objective),
+        options_(options),
+        x_(x),
+        gradient_(x.size()),
+        trial_(x.size()),
+        trial_gradient_(x.size()),
         direction_(x.size()) {
     std::vector<int> begins = options.blocks.empty() ? std::vector<int>{0} : options.blocks;
     begins.push_back(static_cast<int>(x.size()));
     for (std::size_t b = 0; b + 1 < begins.size(); ++b)
       if (begins[b + 1] > begins[b])
-        blocks_.emplace_back(static_cast<std::size_t>(begins[b]), static_cast<std::size_t>(begins[b + 1] - begins[b]),
-                             options.memory);
+        blocks_.emplace_back(static_cast<std::size_t>(begins[b]),
+                             static_cast<std::size_t>(begins[b + 1] - begins[b]), options.memory);
   }
 
   LbfgsSummary run() {
@@ -135,7 +145,8 @@ class Minimizer {
       for (std::size_t i = 0; i < direction_.size(); ++i) direction_[i] = -gradient_[i];
       fresh = true;
     }
-    // Without any curvature knowledge a unit step is meaningless; begin with a tenth of a unit of the variables.
+    // Without any curvature knowledge a unit step is meaningless; begin with a tenth of a unit of the
+    // variables.
     double step = fresh ? 0.1 / std::max(1e-12, largest(direction_)) : 1.0;
     step = std::min(step, options_.max_step / std::max(1e-300, largest(direction_)));
     if (!search(step)) return false;
@@ -160,7 +171,8 @@ class Minimizer {
     for (int trial = 0; trial < kMaxTrials; ++trial) {
       for (std::size_t i = 0; i < trial_.size(); ++i) trial_[i] = x_[i] + step * direction_[i];
       trial_cost_ = evaluate(trial_, trial_gradient_);
-      const bool decreased = trial_cost_ <= cost_ + options_.sufficient_decrease * step * slope;  // false for NaN
+      const bool decreased =
+          trial_cost_ <= cost_ + options_.sufficient_decrease * step * slope;  // false for NaN
       if (!decreased)
         high = step;
       else if (dot(direction_, trial_gradient_) < options_.curvature * slope)
@@ -203,12 +215,18 @@ class Minimizer {
 
 const char* name_of(LbfgsStatus status) {
   switch (status) {
-    case LbfgsStatus::not_run: return "not run";
-    case LbfgsStatus::converged: return "converged";
-    case LbfgsStatus::small_gradient: return "small gradient";
-    case LbfgsStatus::evaluation_limit: return "evaluation limit";
-    case LbfgsStatus::stopped: return "stopped";
-    case LbfgsStatus::no_step: return "no step";
+    case LbfgsStatus::not_run:
+      return "not run";
+    case LbfgsStatus::converged:
+      return "converged";
+    case LbfgsStatus::small_gradient:
+      return "small gradient";
+    case LbfgsStatus::evaluation_limit:
+      return "evaluation limit";
+    case LbfgsStatus::stopped:
+      return "stopped";
+    case LbfgsStatus::no_step:
+      return "no step";
   }
   return "?";
 }

@@ -10,7 +10,7 @@ namespace seine::optim {
 using Objective = std::function<double(std::span<const double> x, std::span<double> gradient)>;
 
 struct LbfgsOptions {
-  int memory = 16;               ///< pairs kept; 16-32 beats more for our problems (docs/optimiser.md)
+  int memory = 16;  ///< pairs kept; 16-32 beats more for our problems (docs/optimiser.md)
   int max_evaluations = 1000;
   double gradient_tolerance = 1e-8;  ///< stop when ‖g‖∞ ≤ this · max(1, ‖x‖∞)
   /// Stop when f fell by less than this, relative to |f|, over the last `past` iterations.
@@ -19,8 +19,9 @@ struct LbfgsOptions {
   double sufficient_decrease = 1e-4;  ///< c1 of the weak Wolfe conditions
   double curvature = 0.9;             ///< c2
   double max_step = 1e10;             ///< longest ‖step‖∞ of one iteration
-  /// Where independent groups of variables begin (ascending, first 0); empty: one group. Each group keeps its own inverse Hessian, so weakly
-  /// coupled groups converge as fast as each would alone. All share one step length.
+  /// Where independent groups of variables begin (ascending, first 0); empty: one group. Each group keeps its
+  /// own inverse Hessian, so weakly coupled groups converge as fast as each would alone. All share one step
+  /// length.
   std::vector<int> blocks;
   /// Called after every iteration; stops when it returns true.
   std::function<bool(int iteration, double cost)> stop;
@@ -37,8 +38,9 @@ struct LbfgsSummary {
   double cost = 0.0;
 };
 
-/// Minimises a smooth (or mildly kinked) function from `x`, in place: limited-memory BFGS [Liu89] with the bisection line search for weak
-/// Wolfe conditions, which also copes with kinks [Lewis13]. `x` ends at the best point visited. Throws Error when f(x) is not finite at the start.
+/// Minimises a smooth (or mildly kinked) function from `x`, in place: limited-memory BFGS [Liu89] with the
+/// bisection line search for weak Wolfe conditions, which also copes with kinks [Lewis13]. `x` ends at the
+/// best point visited. Throws Error when f(x) is not finite at the start.
 LbfgsSummary minimize(const Objective& objective, std::span<double> x, const LbfgsOptions& options = {});
 
 }  // namespace seine::optim

@@ -26,8 +26,8 @@ trajopt::Placement placed(const Pose2& pose, const trajopt::Units& units) {
 
 }  // namespace
 
-std::vector<trajopt::Body> moving_obstacles(const world::Scenario& scenario, const trajopt::Units& units, double slack,
-                                            double tick, int ticks) {
+std::vector<trajopt::Body> moving_obstacles(const world::Scenario& scenario, const trajopt::Units& units,
+                                            double slack, double tick, int ticks) {
   std::vector<trajopt::Body> bodies;
   for (const world::Obstacle& obstacle : scenario.obstacles) {
     if (obstacle.motion.empty()) continue;
@@ -35,27 +35,31 @@ std::vector<trajopt::Body> moving_obstacles(const world::Scenario& scenario, con
     if (const auto* circle = std::get_if<world::Circle>(&obstacle.shape))
       parts.push_back({{circle->center}, circle->radius});
     else
-      for (auto& part : geom::convex_parts(std::get<0>(obstacle.shape))) parts.push_back({std::move(part), 0.0});
+      for (auto& part : geom::convex_parts(std::get<0>(obstacle.shape)))
+        parts.push_back({std::move(part), 0.0});
     for (const geom::Convex& part : parts) {
       trajopt::Body body;
       body.shape = trajopt::shape_of(part.core, units.length);
       body.radius = part.radius / units.length;
       body.clearance = scenario.margins.obstacle / units.length + slack;
-      for (int k = 0; k < ticks; ++k) body.placements.push_back(placed(pose_at(obstacle.motion, k * tick), units));
+      for (int k = 0; k < ticks; ++k)
+        body.placements.push_back(placed(pose_at(obstacle.motion, k * tick), units));
       bodies.push_back(std::move(body));
     }
   }
   return bodies;
 }
 
-trajopt::Body car_body(const vehicle::Model& model, double clearance, const trajopt::Units& units, double slack) {
+trajopt::Body car_body(const vehicle::Model& model, double clearance, const trajopt::Units& units,
+                       double slack) {
   trajopt::Body body;
   body.shape = trajopt::shape_of(model.footprint, units.length);
   body.clearance = clearance / units.length + slack;
   return body;
 }
 
-void place(trajopt::Body& body, const traj::RobotTrajectory& trajectory, const trajopt::Units& units, double tick, int ticks) {
+void place(trajopt::Body& body, const traj::RobotTrajectory& trajectory, const trajopt::Units& units,
+           double tick, int ticks) {
   body.placements.clear();
   const double arrival = trajectory.arrival();
   for (int k = 0; k < ticks; ++k) {
@@ -64,7 +68,8 @@ void place(trajopt::Body& body, const traj::RobotTrajectory& trajectory, const t
   }
 }
 
-void place(trajopt::Body& body, const search::TimedPath& path, const trajopt::Units& units, double tick, int ticks) {
+void place(trajopt::Body& body, const search::TimedPath& path, const trajopt::Units& units, double tick,
+           int ticks) {
   body.placements.clear();
   const double arrival = path.arrival();
   for (int k = 0; k < ticks; ++k) {

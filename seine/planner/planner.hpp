@@ -21,7 +21,7 @@ struct Options {
   double deadline_s = std::numeric_limits<double>::infinity();  ///< wall time for everything
   int threads = 0;                                              ///< 0: as many as the machine has
   std::uint64_t seed = 0;
-  std::function<void(const Progress&)> progress;                ///< optional
+  std::function<void(const Progress&)> progress;  ///< optional
 };
 
 /// Where the time went, seconds.
@@ -48,12 +48,12 @@ struct PlanResult {
   certify::Certificate certificate;
   Quality quality;
   Times times;
-  int iterations = 0;              ///< objective evaluations, all rounds
-  int repairs = 0;                 ///< rounds of re-guessing after the first
+  int iterations = 0;  ///< objective evaluations, all rounds
+  int repairs = 0;     ///< rounds of re-guessing after the first
 };
 
-/// Plans for the whole team. An impossible or unsolved task is a result with a reason; a scenario that is wrong in itself (a start in
-/// collision, two goals that overlap) throws InputError.
+/// Plans for the whole team. An impossible or unsolved task is a result with a reason; a scenario that is
+/// wrong in itself (a start in collision, two goals that overlap) throws InputError.
 PlanResult plan(const world::Scenario& scenario, const Options& options = {});
 
 Quality measure(const traj::TeamTrajectory& plan);

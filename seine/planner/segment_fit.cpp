@@ -70,7 +70,8 @@ std::vector<Stretch> stretches_of(const TimedPath& guess, const vehicle::Model& 
     const bool end = stop.s > length - 1e-6;
     bool change = false;
     for (const auto& [s, gear] : gears) change = change || (s > 0.0 && std::abs(s - stop.s) < 1e-6);
-    const bool wait = stop.leave - stop.arrive >= shortest_wait && stop.s - from > apart && length - stop.s > apart;
+    const bool wait =
+        stop.leave - stop.arrive >= shortest_wait && stop.s - from > apart && length - stop.s > apart;
     if (!end && !change && !wait) continue;
     stretches.push_back({gear_at(0.5 * (from + stop.s)), from, stop.s, begin, stop.arrive});
     from = stop.s, begin = stop.leave;
@@ -104,15 +105,16 @@ Turning turning_of(const Path& path, const Stretch& stretch, double wheelbase) {
     if (point.s < stretch.from - 1e-9 || point.s > stretch.to + 1e-9) continue;
     if (last != nullptr) {
       turning.heading += std::abs(geom::wrap_angle(point.pose.heading - last->pose.heading));
-      turning.steering += std::abs(std::atan(wheelbase * point.curvature) - std::atan(wheelbase * last->curvature));
+      turning.steering +=
+          std::abs(std::atan(wheelbase * point.curvature) - std::atan(wheelbase * last->curvature));
     }
     last = &point;
   }
   return turning;
 }
 
-// Stretches of a few centimetres come from exact Reeds-Shepp ends. Left out, their neighbours (of one gear) become one stretch, and the spline takes
-// up the difference.
+// Stretches of a few centimetres come from exact Reeds-Shepp ends. Left out, their neighbours (of one gear)
+// become one stretch, and the spline takes up the difference.
 TimedPath without_tiny_stretches(const TimedPath& guess, double shortest) {
   const auto gears = gear_changes(guess.path);
   TimedPath result;
@@ -138,7 +140,8 @@ TimedPath without_tiny_stretches(const TimedPath& guess, double shortest) {
     if (cut_at(point.s)) continue;
     bool tiny = false;  // the two end points that carry the tiny stretch's own gear
     for (const auto& [from, to] : cuts)
-      for (const auto& [s, gear] : gears) tiny = tiny || (s == from && gear == point.gear && point.s >= from - 1e-9 && point.s <= to + 1e-9);
+      for (const auto& [s, gear] : gears)
+        tiny = tiny || (s == from && gear == point.gear && point.s >= from - 1e-9 && point.s <= to + 1e-9);
     if (tiny) continue;
     result.path.points.push_back(point);
     result.path.points.back().s -= removed_before(point.s);
@@ -162,14 +165,17 @@ trajopt::SegmentGuess fit_stretch(const TimedPath& guess, const Stretch& stretch
   segment.gear = stretch.gear;
   segment.wait = wait;
   const Turning turning = turning_of(guess.path, stretch, model.wheelbase);
-  // The guess turns its wheel in no time; where that takes time, starting slow and speeding up is easy, the reverse is not.
-  const double steering_time = std::isfinite(model.limits.steering_rate) ? turning.steering / model.limits.steering_rate : 0.0;
+  // The guess turns its wheel in no time; where that takes time, starting slow and speeding up is easy, the
+  // reverse is not.
+  const double steering_time =
+      std::isfinite(model.limits.steering_rate) ? turning.steering / model.limits.steering_rate : 0.0;
   segment.duration = std::max(stretch.end - stretch.begin, 1e-3) + steering_time;
   segment.length = length;
   const auto pieces_for = [](double ratio, int least) {
     return std::clamp(static_cast<int>(std::lround(ratio)), least, traj::UniformMinco::kMaxPieces);
   };
-  const int pieces = pieces_for(length / (options.piece_length * model.length()) + turning.heading / options.piece_turn, 3);
+  const int pieces =
+      pieces_for(length / (options.piece_length * model.length()) + turning.heading / options.piece_turn, 3);
   const int times = pieces_for(segment.duration / (options.piece_duration * t_a), 4);
   for (int j = 0; j <= pieces; ++j)
     segment.points.push_back(search::pose_at(guess.path, stretch.from + length * j / pieces).position());
@@ -190,8 +196,8 @@ trajopt::SegmentGuess fit_stretch(const TimedPath& guess, const Stretch& stretch
 
 }  // namespace
 
-void set_corridor(trajopt::RobotTask& task, std::span<const geom::Pose2> poses, const world::Scenario& scenario,
-                  const world::StaticMap& map, const FitOptions& options) {
+void set_corridor(trajopt::RobotTask& task, std::span<const geom::Pose2> poses,
+                  const world::Scenario& scenario, const world::StaticMap& map, const FitOptions& options) {
   const double length = task.model.length();
   task.corridor = corridor::build(poses, task.model, map,
                                   {.reach = options.corridor_reach * length,
@@ -199,7 +205,8 @@ void set_corridor(trajopt::RobotTask& task, std::span<const geom::Pose2> poses, 
   // In the tightest places the guess itself has no slack to give.
   for (std::size_t i = 0; i < task.corridor.samples(); ++i) {
     const double give = std::min(task.corridor.depth[i], options.corridor_slack * length);
-    for (int k = task.corridor.begin[i]; k < task.corridor.begin[i + 1]; ++k) task.corridor.b[static_cast<std::size_t>(k)] += give;
+    for (int k = task.corridor.begin[i]; k < task.corridor.begin[i + 1]; ++k)
+      task.corridor.b[static_cast<std::size_t>(k)] += give;
   }
 }
 

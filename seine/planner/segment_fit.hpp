@@ -10,22 +10,23 @@ namespace seine::planner {
 
 /// How a guess is cut into polynomial pieces and how far its corridor looks.
 struct FitOptions {
-  double piece_length = 1.6;      ///< of the curve, car lengths
-  double piece_turn = 0.8;        ///< rad of heading change that deserve a piece of their own
-  double shortest_stretch = 0.05; ///< car lengths: shorter stretches in one gear are left out
-  double piece_duration = 0.6;    ///< of the progress, in t_a = v_max / a_max
+  double piece_length = 1.6;       ///< of the curve, car lengths
+  double piece_turn = 0.8;         ///< rad of heading change that deserve a piece of their own
+  double shortest_stretch = 0.05;  ///< car lengths: shorter stretches in one gear are left out
+  double piece_duration = 0.6;     ///< of the progress, in t_a = v_max / a_max
   double shortest_wait = 0.6;     ///< a stop on the way at least this long, in t_a, becomes a rest of its own
   double corridor_reach = 1.0;    ///< car lengths
   double corridor_slack = 0.005;  ///< car lengths, on top of the certified margin
 };
 
-/// Turns a timed path into the optimiser's first guess for one car: one segment per gear and per long stop, knots at equal arc length, progress
-/// at equal times, and the convex corridor around the path.
-trajopt::RobotTask fit(const search::TimedPath& timed, const world::Scenario& scenario, const world::Robot& robot,
-                       const world::StaticMap& map, const FitOptions& options = {});
+/// Turns a timed path into the optimiser's first guess for one car: one segment per gear and per long stop,
+/// knots at equal arc length, progress at equal times, and the convex corridor around the path.
+trajopt::RobotTask fit(const search::TimedPath& timed, const world::Scenario& scenario,
+                       const world::Robot& robot, const world::StaticMap& map,
+                       const FitOptions& options = {});
 
 /// Rebuilds the corridor around a sequence of poses (curve samples, see RobotTask::corridor).
-void set_corridor(trajopt::RobotTask& task, std::span<const geom::Pose2> poses, const world::Scenario& scenario,
-                  const world::StaticMap& map, const FitOptions& options);
+void set_corridor(trajopt::RobotTask& task, std::span<const geom::Pose2> poses,
+                  const world::Scenario& scenario, const world::StaticMap& map, const FitOptions& options);
 
 }  // namespace seine::planner

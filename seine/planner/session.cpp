@@ -16,8 +16,8 @@ namespace {
 constexpr int kPolishRounds = 8;
 constexpr int kStuckRounds = 3, kHopelessRounds = 6;
 constexpr int kAttempts = 8;
-constexpr double kTick = 0.0667;          // of the time a car takes to drive its own length
-constexpr double kCloseGap = 0.25;        // car lengths: cars that come this close are optimised jointly
+constexpr double kTick = 0.0667;    // of the time a car takes to drive its own length
+constexpr double kCloseGap = 0.25;  // car lengths: cars that come this close are optimised jointly
 constexpr double kPenaltyRaise = 3.0, kMostPenalty = 100.0;
 constexpr double kTightenRaise = 0.005, kMostTighten = 0.03;
 constexpr double kClearanceRaise = 0.01;  // car lengths, on top of what was missed
@@ -26,12 +26,17 @@ constexpr int kLargeGroup = 6;            // a group this large is worth all thr
 }  // namespace
 
 Session::Session(const world::Scenario& scenario, const Options& options)
-    : scenario_(scenario), options_(options), deadline_(options.deadline_s), workers_(options.threads), map_(scenario) {}
+    : scenario_(scenario),
+      options_(options),
+      deadline_(options.deadline_s),
+      workers_(options.threads),
+      map_(scenario) {}
 
 PlanResult Session::run() {
   const auto complaints = world::check(scenario_, map_);
   if (!complaints.empty()) {
-    const std::string more = complaints.size() > 1 ? " (and " + std::to_string(complaints.size() - 1) + " more)" : "";
+    const std::string more =
+        complaints.size() > 1 ? " (and " + std::to_string(complaints.size() - 1) + " more)" : "";
     throw InputError(scenario_.name + ": " + complaints.front() + more);
   }
   for (int attempt = 0; attempt < kAttempts && !deadline_.expired(); ++attempt) {
@@ -127,7 +132,8 @@ void Session::solve_groups(const std::vector<Group>& groups, Start start) {
     Workers serial(1);
     solve(*small[static_cast<std::size_t>(k)], start, serial);
   });
-  for (const Group& group : groups) result_.iterations += evaluations_[static_cast<std::size_t>(group.front())];
+  for (const Group& group : groups)
+    result_.iterations += evaluations_[static_cast<std::size_t>(group.front())];
   place_bodies();
 }
 
@@ -143,7 +149,8 @@ trajopt::Task Session::task_for(const Group& group) const {
     const auto i = static_cast<std::size_t>(k);
     task.robots.push_back(&tasks_[i]);
     task.demands.push_back(demands_[i]);
-    for (const int other : group) task.extra.push_back(extra_[i * bodies_.size() + static_cast<std::size_t>(other)]);
+    for (const int other : group)
+      task.extra.push_back(extra_[i * bodies_.size() + static_cast<std::size_t>(other)]);
     for (const std::size_t body : others) task.extra.push_back(extra_[i * bodies_.size() + body]);
   }
   return task;
@@ -206,7 +213,8 @@ void Session::polish() {
     };
     for (const Group& group : groups)
       if (rounds_of(group) >= kHopelessRounds) return;
-    std::ranges::copy_if(groups, std::back_inserter(stuck), [&](const Group& g) { return rounds_of(g) == kStuckRounds; });
+    std::ranges::copy_if(groups, std::back_inserter(stuck),
+                         [&](const Group& g) { return rounds_of(g) == kStuckRounds; });
     std::erase_if(groups, [&](const Group& g) { return rounds_of(g) == kStuckRounds; });
     solve_groups(stuck, Start::gentle_guess);
     solve_groups(groups, Start::solution);
@@ -239,7 +247,8 @@ std::vector<Session::Group> Session::raise_demands(int round) {
         break;
       }
       case certify::Kind::moving_obstacle_clearance:
-        for (std::size_t body = count; body < bodies_.size(); ++body) extra(a, body) += missed + kClearanceRaise * units_.length;
+        for (std::size_t body = count; body < bodies_.size(); ++body)
+          extra(a, body) += missed + kClearanceRaise * units_.length;
         break;
       case certify::Kind::obstacle_clearance:
       case certify::Kind::bounds:
@@ -255,7 +264,8 @@ std::vector<Session::Group> Session::raise_demands(int round) {
   }
   for (std::size_t k = 0; k < count; ++k) fault_rounds_[k] = at_fault[k] ? fault_rounds_[k] + 1 : 0;
   std::vector<Group> result = groups.all();
-  std::erase_if(result, [&](const Group& group) { return !at_fault[static_cast<std::size_t>(group.front())]; });
+  std::erase_if(result,
+                [&](const Group& group) { return !at_fault[static_cast<std::size_t>(group.front())]; });
   return result;
 }
 
@@ -276,6 +286,8 @@ PlanResult Session::finish() {
   return std::move(result_);
 }
 
-PlanResult plan(const world::Scenario& scenario, const Options& options) { return Session(scenario, options).run(); }
+PlanResult plan(const world::Scenario& scenario, const Options& options) {
+  return Session(scenario, options).run();
+}
 
 }  // namespace seine::planner

@@ -11,10 +11,12 @@
 
 namespace seine::planner {
 
-/// One call of plan(): guess, optimisation, certificate, and repair of what the certificate refuses (docs/optimiser.md). Internal to the room.
+/// One call of plan(): guess, optimisation, certificate, and repair of what the certificate refuses
+/// (docs/optimiser.md). Internal to the room.
 ///
-/// The optimisation goes from the independent to the joint: every car alone among the others' guesses; then the groups of cars that come close to
-/// each other, each group jointly; then whatever the certificate finds fault with, jointly again with more asked of it.
+/// The optimisation goes from the independent to the joint: every car alone among the others' guesses; then
+/// the groups of cars that come close to each other, each group jointly; then whatever the certificate finds
+/// fault with, jointly again with more asked of it.
 class Session {
  public:
   Session(const world::Scenario& scenario, const Options& options);
@@ -57,11 +59,11 @@ class Session {
   int ticks_ = 1;
   std::vector<trajopt::RobotTask> tasks_;
   std::vector<std::vector<double>> solution_;  // per robot: the optimiser's variables
-  std::vector<int> fault_rounds_;              // per robot: rounds in a row in which the certificate blamed it
-  std::vector<int> evaluations_;               // per robot: of the last group it was solved in
-  std::vector<trajopt::Body> bodies_;          // every robot as it moves now, then the moving obstacles' parts
-  std::vector<double> extra_;                  // m, robots × bodies: clearance asked on top of the scenario's
-  std::vector<trajopt::Demand> demands_;       // per robot
+  std::vector<int> fault_rounds_;         // per robot: rounds in a row in which the certificate blamed it
+  std::vector<int> evaluations_;          // per robot: of the last group it was solved in
+  std::vector<trajopt::Body> bodies_;     // every robot as it moves now, then the moving obstacles' parts
+  std::vector<double> extra_;             // m, robots × bodies: clearance asked on top of the scenario's
+  std::vector<trajopt::Demand> demands_;  // per robot
   PlanResult result_;
 };
 

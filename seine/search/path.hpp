@@ -8,27 +8,31 @@ namespace seine::search {
 
 /// A point of a driveable path.
 struct PathPoint {
-  double s = 0.0;          ///< m, driven length from the start, grows in either gear
+  double s = 0.0;  ///< m, driven length from the start, grows in either gear
   geom::Pose2 pose;
-  double curvature = 0.0;  ///< κ, 1/m, of the front wheel on the stretch that starts here; |κ| is what limits the speed
-  int gear = 1;            ///< η of the stretch that starts here
+  double curvature =
+      0.0;  ///< κ, 1/m, of the front wheel on the stretch that starts here; |κ| is what limits the speed
+  int gear = 1;  ///< η of the stretch that starts here
 };
 
-/// A driveable curve of arcs and straights with gear changes, densely sampled (consecutive points at most `spacing` apart). The last
-/// point of a stretch in one gear and the first of the next are two points with the same s and pose and different gear.
+/// A driveable curve of arcs and straights with gear changes, densely sampled (consecutive points at most
+/// `spacing` apart). The last point of a stretch in one gear and the first of the next are two points with
+/// the same s and pose and different gear.
 struct Path {
   std::vector<PathPoint> points;
   double length() const { return points.empty() ? 0.0 : points.back().s; }
 };
 
-/// A knot of a speed profile: at time t the car has driven s and has speed v ≥ 0 (unsigned); between knots the acceleration is constant.
+/// A knot of a speed profile: at time t the car has driven s and has speed v ≥ 0 (unsigned); between knots
+/// the acceleration is constant.
 struct ProfileKnot {
   double t = 0.0;
   double s = 0.0;
   double v = 0.0;
 };
 
-/// A path and when the car is where on it: starts at t = 0, ends at rest at the path's end; v = 0 at every gear change.
+/// A path and when the car is where on it: starts at t = 0, ends at rest at the path's end; v = 0 at every
+/// gear change.
 struct TimedPath {
   Path path;
   std::vector<ProfileKnot> profile;

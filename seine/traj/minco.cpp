@@ -9,8 +9,8 @@
 namespace seine::traj {
 namespace {
 
-// Continuity of the third and fourth derivative at knot j, written in value p, slope v and curvature a of knots j − 1, j, j + 1
-// (a quintic piece is its Hermite data):
+// Continuity of the third and fourth derivative at knot j, written in value p, slope v and curvature a of
+// knots j − 1, j, j + 1 (a quintic piece is its Hermite data):
 //   −24 v₋ + 24 v₊ − 3 a₋ + 18 a − 3 a₊            = 60 p₋ − 120 p + 60 p₊
 //   −168 v₋ − 384 v − 168 v₊ − 24 a₋ + 24 a₊       = 360 p₋ − 360 p₊
 constexpr int kStart = 0;
@@ -55,12 +55,14 @@ UniformMinco::UniformMinco(int pieces) : pieces_(pieces) {
   const Eigen::MatrixXd inner = solve_inner(pieces);
   inner_.resize(static_cast<std::size_t>(inner.size()));
   for (Eigen::Index r = 0; r < inner.rows(); ++r)
-    for (Eigen::Index c = 0; c < inner.cols(); ++c) inner_[static_cast<std::size_t>(r * inner.cols() + c)] = inner(r, c);
+    for (Eigen::Index c = 0; c < inner.cols(); ++c)
+      inner_[static_cast<std::size_t>(r * inner.cols() + c)] = inner(r, c);
 }
 
 const UniformMinco& UniformMinco::with(int pieces) {
   if (pieces < 1 || pieces > kMaxPieces)
-    throw std::out_of_range("a spline has 1 to " + std::to_string(kMaxPieces) + " pieces, not " + std::to_string(pieces));
+    throw std::out_of_range("a spline has 1 to " + std::to_string(kMaxPieces) + " pieces, not " +
+                            std::to_string(pieces));
   static std::array<std::unique_ptr<const UniformMinco>, kMaxPieces + 1> cache;
   static std::array<std::once_flag, kMaxPieces + 1> made;
   const auto index = static_cast<std::size_t>(pieces);
@@ -122,10 +124,12 @@ void UniformMinco::add_adjoint(const double* gradient, int stride, std::span<dou
   const int columns = rows();
   for (int j = 1; j < last; ++j) {
     const double* row = &inner_[static_cast<std::size_t>(2 * (j - 1) * columns)];
-    const double v = knots[static_cast<std::size_t>(3 * j + 1)], a = knots[static_cast<std::size_t>(3 * j + 2)];
+    const double v = knots[static_cast<std::size_t>(3 * j + 1)],
+                 a = knots[static_cast<std::size_t>(3 * j + 2)];
     gradient_z[static_cast<std::size_t>(j + 2)] += knots[static_cast<std::size_t>(3 * j)];
 #pragma omp simd
-    for (int c = 0; c < columns; ++c) gradient_z[static_cast<std::size_t>(c)] += v * row[c] + a * row[columns + c];
+    for (int c = 0; c < columns; ++c)
+      gradient_z[static_cast<std::size_t>(c)] += v * row[c] + a * row[columns + c];
   }
 }
 

@@ -6,12 +6,14 @@
 
 namespace seine::traj {
 
-/// The minimum-jerk spline through given points, on M pieces of unit length [Wang22, Theorem 2, s = 3]: quintic pieces, C⁴ at the interior
-/// knots. With uniform pieces in normalised time the linear system is the same for every trajectory with M pieces, so it is solved once for
-/// all right-hand sides and kept as a matrix.
+/// The minimum-jerk spline through given points, on M pieces of unit length [Wang22, Theorem 2, s = 3]:
+/// quintic pieces, C⁴ at the interior knots. With uniform pieces in normalised time the linear system is the
+/// same for every trajectory with M pieces, so it is solved once for all right-hand sides and kept as a
+/// matrix.
 ///
-/// Rows of the boundary data Z (M + 5 of them): start value, start derivative, start second derivative, the M − 1 interior values, end
-/// value, end derivative, end second derivative. Knot data: value, first and second derivative at each of the M + 1 knots.
+/// Rows of the boundary data Z (M + 5 of them): start value, start derivative, start second derivative, the M
+/// − 1 interior values, end value, end derivative, end second derivative. Knot data: value, first and second
+/// derivative at each of the M + 1 knots.
 class UniformMinco {
  public:
   /// The shared, immutable instance for M pieces, 1 ≤ M ≤ kMaxPieces. Thread-safe.
@@ -30,7 +32,8 @@ class UniformMinco {
  private:
   explicit UniformMinco(int pieces);
   int pieces_;
-  std::vector<double> inner_;  // 2(M − 1) × (M + 5): first and second derivatives at the interior knots from Z
+  std::vector<double>
+      inner_;  // 2(M − 1) × (M + 5): first and second derivatives at the interior knots from Z
 };
 
 /// ∫₀¹ (f''')² dw of a quintic with coefficients c, and its gradient.

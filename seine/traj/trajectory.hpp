@@ -14,22 +14,23 @@ struct State {
   double speed = 0.0;                 ///< v, m/s, signed: negative backwards
   double acceleration = 0.0;          ///< a_t = v̇, m/s², signed along the body's x axis
   double lateral_acceleration = 0.0;  ///< a_n = v² κ, m/s²
-  double curvature = 0.0;             ///< κ = tan φ / L, 1/m, of the front wheel: positive turns the car left, in either gear when driving forward
-  double curvature_rate = 0.0;        ///< κ̇, 1/(m s)
+  double curvature = 0.0;  ///< κ = tan φ / L, 1/m, of the front wheel: positive turns the car left, in either
+                           ///< gear when driving forward
+  double curvature_rate = 0.0;  ///< κ̇, 1/(m s)
 };
 
 /// A polynomial Σ c[k] w^k of degree five over w ∈ [0, 1].
 using Quintic = std::array<double, 6>;
 
-/// A stretch driven in one gear: a curve p(u) traversed by the scalar u(t). p has one quintic a unit of u, u(t) one quintic a
-/// `piece_duration`; the number of pieces may differ. u runs from 0 to the number of curve pieces. At a rest u̇ = 0 while p' ≠ 0,
-/// so heading and curvature are defined there. See docs/trajectory.md.
+/// A stretch driven in one gear: a curve p(u) traversed by the scalar u(t). p has one quintic a unit of u,
+/// u(t) one quintic a `piece_duration`; the number of pieces may differ. u runs from 0 to the number of curve
+/// pieces. At a rest u̇ = 0 while p' ≠ 0, so heading and curvature are defined there. See docs/trajectory.md.
 struct Segment {
-  int gear = 1;                                 ///< η: +1 forward, −1 backward
-  double wait = 0.0;                            ///< s, at rest before it starts, ≥ 0
-  double piece_duration = 1.0;                  ///< h, s, > 0
-  std::vector<std::array<Quintic, 2>> curve;    ///< (x, y) of each piece, local parameter w = u − ⌊u⌋
-  std::vector<Quintic> progress;                ///< u of each piece, local parameter w = (t − t_j) / h
+  int gear = 1;                               ///< η: +1 forward, −1 backward
+  double wait = 0.0;                          ///< s, at rest before it starts, ≥ 0
+  double piece_duration = 1.0;                ///< h, s, > 0
+  std::vector<std::array<Quintic, 2>> curve;  ///< (x, y) of each piece, local parameter w = u − ⌊u⌋
+  std::vector<Quintic> progress;              ///< u of each piece, local parameter w = (t − t_j) / h
 
   double duration() const { return piece_duration * static_cast<double>(progress.size()); }
 };
@@ -50,7 +51,8 @@ struct TeamTrajectory {
   double makespan() const;  ///< s, latest arrival
 };
 
-/// State on a segment `t` seconds after it began to move (t is clamped to [0, duration]); the result's `t` is that local time.
+/// State on a segment `t` seconds after it began to move (t is clamped to [0, duration]); the result's `t` is
+/// that local time.
 State evaluate(const Segment& segment, double t);
 
 }  // namespace seine::traj

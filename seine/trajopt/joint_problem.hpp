@@ -14,17 +14,18 @@ namespace seine::trajopt {
 
 /// Everything the joint problem is made of; SI units unless said otherwise.
 struct Task {
-  std::vector<const RobotTask*> robots;   ///< must outlive the problem
-  std::vector<const Body*> bodies;        ///< in units; must outlive the problem
-  double robot_clearance = 0.05;          ///< m, between footprints
-  std::vector<double> extra;              ///< m, robots × (robots + bodies), added to their clearance; may be empty
-  std::vector<Demand> demands;            ///< per robot; may be empty
-  double tick = 0.05;                     ///< s, spacing of the common clock's samples
-  int ticks = 1;                          ///< the clock ends when everything has come to rest
-  Units units;                            ///< see units_of; the same for every subset of a team, so that variables can be carried over
+  std::vector<const RobotTask*> robots;  ///< must outlive the problem
+  std::vector<const Body*> bodies;       ///< in units; must outlive the problem
+  double robot_clearance = 0.05;         ///< m, between footprints
+  std::vector<double> extra;    ///< m, robots × (robots + bodies), added to their clearance; may be empty
+  std::vector<Demand> demands;  ///< per robot; may be empty
+  double tick = 0.05;           ///< s, spacing of the common clock's samples
+  int ticks = 1;                ///< the clock ends when everything has come to rest
+  Units units;  ///< see units_of; the same for every subset of a team, so that variables can be carried over
 };
 
-/// The units to make a team dimensionless with: the median car length, and the time to drive it at that car's top speed.
+/// The units to make a team dimensionless with: the median car length, and the time to drive it at that car's
+/// top speed.
 Units units_of(std::span<const RobotTask> robots);
 
 struct SolveSummary {
@@ -33,7 +34,8 @@ struct SolveSummary {
   bool finished = false;  ///< false when the deadline cut it short
 };
 
-/// All cars together: own cost of each, plus the distances between them on the common clock. min J(x) over all variables, unconstrained.
+/// All cars together: own cost of each, plus the distances between them on the common clock. min J(x) over
+/// all variables, unconstrained.
 class JointProblem {
  public:
   JointProblem(const Task& task, const Settings& settings, Workers& workers);

@@ -48,8 +48,8 @@ constexpr Basis<kTimeLanes> kTime;
 }  // namespace
 
 SEINE_WIDEST
-double curve_piece(const double* cx, const double* cy, int stride, const CurveWeights& weights, CurveLanes& lanes,
-                   double& g_length) {
+double curve_piece(const double* cx, const double* cy, int stride, const CurveWeights& weights,
+                   CurveLanes& lanes, double& g_length) {
   double x[6], y[6];
   for (int k = 0; k < 6; ++k) x[k] = cx[k * stride], y[k] = cy[k * stride];
   double cost = 0.0, g_l = 0.0;
@@ -89,8 +89,10 @@ void curve_piece_adjoint(const CurveLanes& lanes, double* gcx, double* gcy, int 
 #pragma omp simd reduction(+ : gx, gy)
     for (int j = 0; j < kCurveLanes; ++j) {
       const auto i = static_cast<std::size_t>(j);
-      gx += kCurve.value[0][k][j] * lanes.gpx[i] + kCurve.value[1][k][j] * lanes.g1x[i] + kCurve.value[2][k][j] * lanes.g2x[i];
-      gy += kCurve.value[0][k][j] * lanes.gpy[i] + kCurve.value[1][k][j] * lanes.g1y[i] + kCurve.value[2][k][j] * lanes.g2y[i];
+      gx += kCurve.value[0][k][j] * lanes.gpx[i] + kCurve.value[1][k][j] * lanes.g1x[i] +
+            kCurve.value[2][k][j] * lanes.g2x[i];
+      gy += kCurve.value[0][k][j] * lanes.gpy[i] + kCurve.value[1][k][j] * lanes.g1y[i] +
+            kCurve.value[2][k][j] * lanes.g2y[i];
     }
     gcx[k * stride] += gx;
     gcy[k * stride] += gy;
@@ -101,8 +103,8 @@ namespace {
 
 // What one piece of progress hands from its vector loop to its scatter loop.
 struct TimeLanes {
-  alignas(64) double w[kTimeLanes], g1x[kTimeLanes], g1y[kTimeLanes], g2x[kTimeLanes], g2y[kTimeLanes], gu[kTimeLanes],
-      gu1[kTimeLanes], gu2[kTimeLanes], cost[kTimeLanes];
+  alignas(64) double w[kTimeLanes], g1x[kTimeLanes], g1y[kTimeLanes], g2x[kTimeLanes], g2y[kTimeLanes],
+      gu[kTimeLanes], gu1[kTimeLanes], gu2[kTimeLanes], cost[kTimeLanes];
   int piece[kTimeLanes];
 };
 
@@ -122,8 +124,8 @@ struct TimeLanes {
 }  // namespace
 
 SEINE_WIDEST
-double time_piece(const double* cu, double* gcu, int stride, const CurveView& curve, const TimeWeights& weights,
-                  double& g_duration) {
+double time_piece(const double* cu, double* gcu, int stride, const CurveView& curve,
+                  const TimeWeights& weights, double& g_duration) {
   const double rate = 1.0 / weights.piece_duration, rate2 = rate * rate;
   const double last = curve.pieces - 1.0;
   double c[6];
@@ -159,16 +161,18 @@ double time_piece(const double* cu, double* gcu, int stride, const CurveView& cu
     double d_speed, d_back, d_tangential, d_lateral, slope;
     double lane_cost = math::hinge(constraint::speed(q.speed, weights.speed, d_speed), weights.knee, slope);
     double g_speed = slope * d_speed;
-    lane_cost += kProgress * math::hinge(constraint::progress(q.speed, weights.speed, d_back), weights.knee, slope);
-    g_speed += kProgress * slope * d_back;
-    lane_cost += math::hinge(constraint::tangential_acceleration(q.tangential, weights.acceleration, d_tangential),
-                             weights.knee, slope);
-    const double g_tangential = slope * d_tangential;
     lane_cost +=
-        math::hinge(constraint::lateral_acceleration(q.lateral, weights.lateral, d_lateral), weights.knee, slope);
+        kProgress * math::hinge(constraint::progress(q.speed, weights.speed, d_back), weights.knee, slope);
+    g_speed += kProgress * slope * d_back;
+    lane_cost +=
+        math::hinge(constraint::tangential_acceleration(q.tangential, weights.acceleration, d_tangential),
+                    weights.knee, slope);
+    const double g_tangential = slope * d_tangential;
+    lane_cost += math::hinge(constraint::lateral_acceleration(q.lateral, weights.lateral, d_lateral),
+                             weights.knee, slope);
     const double g_lateral = slope * d_lateral;
-    const vehicle::FlatMotion g = vehicle::motion_adjoint(f, q, weights.weight * g_speed, weights.weight * g_tangential,
-                                                          weights.weight * g_lateral);
+    const vehicle::FlatMotion g = vehicle::motion_adjoint(
+        f, q, weights.weight * g_speed, weights.weight * g_tangential, weights.weight * g_lateral);
     lanes.piece[j] = piece, lanes.w[j] = w, lanes.cost[j] = lane_cost;
     lanes.g1x[j] = g.d1x, lanes.g1y[j] = g.d1y, lanes.g2x[j] = g.d2x, lanes.g2y[j] = g.d2y;
     lanes.gu[j] = g.d1x * f.d2x + g.d1y * f.d2y + g.d2x * d3x + g.d2y * d3y;
@@ -184,7 +188,8 @@ double time_piece(const double* cu, double* gcu, int stride, const CurveView& cu
     double g = 0.0;
 #pragma omp simd reduction(+ : g)
     for (int j = 0; j < kTimeLanes; ++j)
-      g += kTime.value[0][k][j] * lanes.gu[j] + kTime.value[1][k][j] * lanes.gu1[j] + kTime.value[2][k][j] * lanes.gu2[j];
+      g += kTime.value[0][k][j] * lanes.gu[j] + kTime.value[1][k][j] * lanes.gu1[j] +
+           kTime.value[2][k][j] * lanes.gu2[j];
     gcu[k * stride] += g;
   }
   return cost;

@@ -28,21 +28,30 @@ Shape shape_of(std::span<const Vec2> footprint, double unit_length) {
   return shape;
 }
 
-Proximity::Proximity(std::vector<Shape> shapes, std::vector<const Body*> bodies, std::vector<double> extra, double clearance,
-                     int ticks)
-    : shapes_(std::move(shapes)), bodies_(std::move(bodies)), extra_(std::move(extra)), clearance_(clearance), ticks_(ticks),
-      near_(static_cast<std::size_t>(ticks)), needed_(shapes_.size()) {}
+Proximity::Proximity(std::vector<Shape> shapes, std::vector<const Body*> bodies, std::vector<double> extra,
+                     double clearance, int ticks)
+    : shapes_(std::move(shapes)),
+      bodies_(std::move(bodies)),
+      extra_(std::move(extra)),
+      clearance_(clearance),
+      ticks_(ticks),
+      near_(static_cast<std::size_t>(ticks)),
+      needed_(shapes_.size()) {}
 
 double Proximity::clearance_of(int a, int b) const {
-  const std::size_t cars = shapes_.size(), column = b < 0 ? cars + static_cast<std::size_t>(-1 - b) : static_cast<std::size_t>(b);
+  const std::size_t cars = shapes_.size(),
+                    column = b < 0 ? cars + static_cast<std::size_t>(-1 - b) : static_cast<std::size_t>(b);
   const double base = b < 0 ? bodies_[column - cars]->clearance : clearance_;
-  return base + (extra_.empty() ? 0.0 : extra_[static_cast<std::size_t>(a) * (cars + bodies_.size()) + column]);
+  return base +
+         (extra_.empty() ? 0.0 : extra_[static_cast<std::size_t>(a) * (cars + bodies_.size()) + column]);
 }
 
 // Distance beyond the wanted clearance, roughly and from below.
 double Proximity::gap(const Near& near, int tick, std::span<const ClockState> states) const {
   const auto index = [](auto i) { return static_cast<std::size_t>(i); };
-  const auto middle = [](const Shape& shape, Vec2 position, Vec2 direction) { return position + shape.offset * direction; };
+  const auto middle = [](const Shape& shape, Vec2 position, Vec2 direction) {
+    return position + shape.offset * direction;
+  };
   const Shape& shape_a = shapes_[index(near.a)];
   const ClockState& a = states[index(near.a * ticks_ + tick)];
   const Vec2 middle_a = middle(shape_a, a.position, a.direction);
@@ -50,7 +59,8 @@ double Proximity::gap(const Near& near, int tick, std::span<const ClockState> st
   if (near.b < 0) {
     const Body& body = *bodies_[index(-1 - near.b)];
     const Placement& at = body.placements[std::min(index(tick), body.placements.size() - 1)];
-    return geom::norm(middle(body.shape, at.position, at.direction) - middle_a) - body.shape.reach - body.radius - margin;
+    return geom::norm(middle(body.shape, at.position, at.direction) - middle_a) - body.shape.reach -
+           body.radius - margin;
   }
   const ClockState& b = states[index(near.b * ticks_ + tick)];
   const Shape& shape_b = shapes_[index(near.b)];
@@ -89,11 +99,13 @@ double Proximity::evaluate(int chunk, std::span<ClockState> states, double weigh
   const int from = ticks_ * chunk / kChunks, to = ticks_ * (chunk + 1) / kChunks;
   double cost = 0.0;
   for (int tick = from; tick < to; ++tick)
-    for (const Near& near : near_[static_cast<std::size_t>(tick)]) cost += one(near, tick, states, weight, knee);
+    for (const Near& near : near_[static_cast<std::size_t>(tick)])
+      cost += one(near, tick, states, weight, knee);
   return cost;
 }
 
-double Proximity::one(const Near& near, int tick, std::span<ClockState> states, double weight, double knee) const {
+double Proximity::one(const Near& near, int tick, std::span<ClockState> states, double weight,
+                      double knee) const {
   const auto index = [](auto i) { return static_cast<std::size_t>(i); };
   const bool given = near.b < 0;
   const Body* body = given ? bodies_[index(-1 - near.b)] : nullptr;
@@ -104,7 +116,8 @@ double Proximity::one(const Near& near, int tick, std::span<ClockState> states, 
   const Placement at = given ? body->placements[std::min(index(tick), body->placements.size() - 1)]
                              : Placement{b->position, b->direction};
   const double wanted = clearance_of(near.a, near.b) + (given ? body->radius : 0.0);
-  const Vec2 apart = (at.position + shape_b.offset * at.direction) - (a.position + shape_a.offset * a.direction);
+  const Vec2 apart =
+      (at.position + shape_b.offset * at.direction) - (a.position + shape_a.offset * a.direction);
   const double reach = shape_a.reach + shape_b.reach + wanted;
   if (geom::squared_norm(apart) > reach * reach) return 0.0;
 
@@ -116,15 +129,16 @@ double Proximity::one(const Near& near, int tick, std::span<ClockState> states, 
         {at.position, at.direction, shape_b.offset, shape_b.half_length, shape_b.half_width}, g);
   } else {
     constraint::FootprintGradient f;
-    gap = constraint::footprint_distance(a.position, a.direction, shape_a.footprint, at.position, at.direction,
-                                         shape_b.footprint, f);
+    gap = constraint::footprint_distance(a.position, a.direction, shape_a.footprint, at.position,
+                                         at.direction, shape_b.footprint, f);
     g = {f.position_a, f.direction_a, f.position_b, f.direction_b};
   }
   if (gap >= wanted) return 0.0;
   double slope;
   const double cost = weight * math::hinge(wanted - gap, knee, slope);
   a.g_position -= weight * slope * g.position_a, a.g_direction -= weight * slope * g.direction_a;
-  if (b != nullptr) b->g_position -= weight * slope * g.position_b, b->g_direction -= weight * slope * g.direction_b;
+  if (b != nullptr)
+    b->g_position -= weight * slope * g.position_b, b->g_direction -= weight * slope * g.direction_b;
   return cost;
 }
 

@@ -11,9 +11,9 @@ namespace seine::trajopt {
 /// A convex shape as the distance terms need it, in units.
 struct Shape {
   std::vector<geom::Vec2> footprint;
-  bool rectangle = false;            ///< symmetric about the x axis: the closed form serves
+  bool rectangle = false;  ///< symmetric about the x axis: the closed form serves
   double offset = 0.0, half_length = 0.0, half_width = 0.0;  ///< of the bounding rectangle
-  double reach = 0.0;                ///< radius of the circle about the rectangle's middle
+  double reach = 0.0;  ///< radius of the circle about the rectangle's middle
 };
 Shape shape_of(std::span<const geom::Vec2> footprint, double unit_length);
 
@@ -30,9 +30,9 @@ struct Body {
   std::vector<Placement> placements;  ///< one a tick; stays at the last
 };
 
-/// Distances between cars, and between cars and bodies, at the ticks of the common clock; only where they are near: at every tick where they
-/// are close, at every kStride-th where they might soon be. Partitioned by ticks, so that
-/// threads never write to the same place and sums do not depend on their number.
+/// Distances between cars, and between cars and bodies, at the ticks of the common clock; only where they are
+/// near: at every tick where they are close, at every kStride-th where they might soon be. Partitioned by
+/// ticks, so that threads never write to the same place and sums do not depend on their number.
 class Proximity {
  public:
   struct Near {
@@ -40,13 +40,16 @@ class Proximity {
     int b;  ///< another car, or −1 − body
   };
 
-  /// @param bodies must outlive this  @param extra cars × (cars + bodies): what repair rounds add to a clearance; may be empty
-  Proximity(std::vector<Shape> shapes, std::vector<const Body*> bodies, std::vector<double> extra, double clearance, int ticks);
+  /// @param bodies must outlive this  @param extra cars × (cars + bodies): what repair rounds add to a
+  /// clearance; may be empty
+  Proximity(std::vector<Shape> shapes, std::vector<const Body*> bodies, std::vector<double> extra,
+            double clearance, int ticks);
 
   /// Every kStride-th tick is a coarse one: who is near whom is judged there.
   static constexpr int kStride = 3;
-  /// Finds who is near whom. @param states cars × ticks, of which the coarse ones are read  @param skin how far a pair may be apart beyond its
-  /// clearance to be watched at coarse ticks; within `close` it is watched at every tick
+  /// Finds who is near whom. @param states cars × ticks, of which the coarse ones are read  @param skin how
+  /// far a pair may be apart beyond its clearance to be watched at coarse ticks; within `close` it is watched
+  /// at every tick
   void rebuild(std::span<const ClockState> states, double skin, double close);
   /// Ticks at which a car is near anything, ascending.
   const std::vector<int>& ticks_of(int car) const { return needed_[static_cast<std::size_t>(car)]; }
@@ -66,8 +69,8 @@ class Proximity {
   std::vector<double> extra_;
   double clearance_;
   int ticks_;
-  std::vector<std::vector<Near>> near_;    // per tick
-  std::vector<std::vector<int>> needed_;   // per car
+  std::vector<std::vector<Near>> near_;   // per tick
+  std::vector<std::vector<int>> needed_;  // per car
 };
 
 }  // namespace seine::trajopt

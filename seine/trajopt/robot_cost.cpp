@@ -26,17 +26,20 @@ double RobotProblem::evaluate(double knee) {
 double RobotProblem::limits(double knee) {
   double cost = 0.0;
   for (Segment& s : segments_) {
-    const CurveWeights curve{kappa_max_, s.l, knee, curve_weight_, settings_.regularity / (kCurveLanes * pieces_)};
+    const CurveWeights curve{kappa_max_, s.l, knee, curve_weight_,
+                             settings_.regularity / (kCurveLanes * pieces_)};
     CurveLanes lanes;
     for (int j = 0; j < s.pieces; ++j) {
       const int piece = s.piece_begin + j;
-      cost += curve_piece(&cx_[static_cast<std::size_t>(piece)], &cy_[static_cast<std::size_t>(piece)], pieces_, curve, lanes,
-                          s.g_l);
+      cost += curve_piece(&cx_[static_cast<std::size_t>(piece)], &cy_[static_cast<std::size_t>(piece)],
+                          pieces_, curve, lanes, s.g_l);
       cost += corridor_cost(piece, s, lanes, knee);
-      curve_piece_adjoint(lanes, &gcx_[static_cast<std::size_t>(piece)], &gcy_[static_cast<std::size_t>(piece)], pieces_);
+      curve_piece_adjoint(lanes, &gcx_[static_cast<std::size_t>(piece)],
+                          &gcy_[static_cast<std::size_t>(piece)], pieces_);
     }
-    const TimeWeights time{s.h, s.speed_limit, model_.limits.acceleration, model_.limits.lateral_acceleration, knee,
-                           sample_weight_};
+    const TimeWeights time{
+        s.h,  s.speed_limit, model_.limits.acceleration, model_.limits.lateral_acceleration,
+        knee, sample_weight_};
     const auto begin = static_cast<std::size_t>(s.piece_begin);
     const CurveView view{&cx_[begin], &cy_[begin], &gcx_[begin], &gcy_[begin], pieces_, s.pieces};
     for (int j = 0; j < s.time_pieces; ++j) {
@@ -52,7 +55,8 @@ double RobotProblem::corridor_cost(int piece, const Segment& s, CurveLanes& lane
   const double weight = settings_.corridor_penalty * curve_weight_;
   double cost = 0.0;
   for (int lane = 0; lane < kCurveLanes; ++lane) {
-    const auto sample = static_cast<std::size_t>(piece * kCurveLanes + lane), i = static_cast<std::size_t>(lane);
+    const auto sample = static_cast<std::size_t>(piece * kCurveLanes + lane),
+               i = static_cast<std::size_t>(lane);
     if (sample + 1 >= corridor_.begin.size()) break;
     const int from = corridor_.begin[sample], to = corridor_.begin[sample + 1];
     if (from == to) continue;
@@ -89,19 +93,23 @@ double RobotProblem::steering_cost(const Segment& s, double knee, double& g_h) {
       const double wt = static_cast<double>(lane) / kTimeLanes;
       const auto tp = static_cast<std::size_t>(s.time_begin + j);
       double u = 0.0, du = 0.0;
-      for (int k = 5; k >= 0; --k) du = u + wt * du, u = cu_[static_cast<std::size_t>(k * time_pieces_) + tp] + wt * u;
+      for (int k = 5; k >= 0; --k)
+        du = u + wt * du, u = cu_[static_cast<std::size_t>(k * time_pieces_) + tp] + wt * u;
       const int piece = u > 0.0 ? static_cast<int>(std::min(u, s.pieces - 1.0)) : 0;
       const double w = u - piece;
       double d[2][5] = {};  // value and four derivatives of x and y
       for (int axis = 0; axis < 2; ++axis)
         for (int k = 5; k >= 0; --k) {
-          const double c = (axis == 0 ? cx_ : cy_)[static_cast<std::size_t>(k * pieces_ + s.piece_begin + piece)];
-          for (int order = 4; order > 0; --order) d[axis][order] = order * d[axis][order - 1] + w * d[axis][order];
+          const double c =
+              (axis == 0 ? cx_ : cy_)[static_cast<std::size_t>(k * pieces_ + s.piece_begin + piece)];
+          for (int order = 4; order > 0; --order)
+            d[axis][order] = order * d[axis][order - 1] + w * d[axis][order];
           d[axis][0] = c + w * d[axis][0];
         }
       constraint::SteeringSample g;
       const constraint::SteeringSample sample{d[0][1], d[1][1], d[0][2], d[1][2], d[0][3], d[1][3], du / s.h};
-      const double excess = constraint::steering_rate(sample, model_.wheelbase, model_.limits.steering_rate, g);
+      const double excess =
+          constraint::steering_rate(sample, model_.wheelbase, model_.limits.steering_rate, g);
       if (excess <= 0.0) continue;
       double slope;
       cost += sample_weight_ * math::hinge(excess, knee, slope);
@@ -118,8 +126,8 @@ double RobotProblem::steering_cost(const Segment& s, double knee, double& g_h) {
         gcx_[c] += slope * (g.d1x * first[k] + g.d2x * second[k] + g.d3x * third[k]);
         gcy_[c] += slope * (g.d1y * first[k] + g.d2y * second[k] + g.d3y * third[k]);
       }
-      const double g_u = slope * (g.d1x * d[0][2] + g.d1y * d[1][2] + g.d2x * d[0][3] + g.d2y * d[1][3] + g.d3x * d[0][4] +
-                                  g.d3y * d[1][4]);
+      const double g_u = slope * (g.d1x * d[0][2] + g.d1y * d[1][2] + g.d2x * d[0][3] + g.d2y * d[1][3] +
+                                  g.d3x * d[0][4] + g.d3y * d[1][4]);
       const double g_u1 = slope * g.u1 / s.h;
       power = 1.0;
       for (int k = 0; k < 6; ++k) {
@@ -142,7 +150,9 @@ double RobotProblem::smoothness() {
     const double factor = jerk * s.l * s.l / std::pow(s.h, 5);
     for (int j = 0; j < s.time_pieces; ++j) {
       std::array<double, 6> c;
-      const auto at = [&](std::size_t k) { return k * static_cast<std::size_t>(time_pieces_) + static_cast<std::size_t>(s.time_begin + j); };
+      const auto at = [&](std::size_t k) {
+        return k * static_cast<std::size_t>(time_pieces_) + static_cast<std::size_t>(s.time_begin + j);
+      };
       for (std::size_t k = 0; k < 6; ++k) c[k] = cu_[at(k)];
       const double energy = factor * traj::jerk_energy(c);
       const auto g = traj::jerk_energy_gradient(c);
@@ -154,7 +164,9 @@ double RobotProblem::smoothness() {
     const double bend = settings_.curve_smoothness / (s.l * s.l);
     for (int j = 0; j < s.pieces; ++j)
       for (int axis = 0; axis < 2; ++axis) {
-        const auto at = [&](std::size_t k) { return k * static_cast<std::size_t>(pieces_) + static_cast<std::size_t>(s.piece_begin + j); };
+        const auto at = [&](std::size_t k) {
+          return k * static_cast<std::size_t>(pieces_) + static_cast<std::size_t>(s.piece_begin + j);
+        };
         std::array<double, 6> c;
         for (std::size_t k = 0; k < 6; ++k) c[k] = (axis == 0 ? cx_ : cy_)[at(k)];
         const double energy = bend * traj::jerk_energy(c);

@@ -10,7 +10,8 @@ using geom::Vec2;
 
 void RobotProblem::pull_back(const ClockState& c) {
   Segment& s = segments_[static_cast<std::size_t>(c.segment)];
-  const Vec2 g1 = (s.gear * c.inverse_m) * (c.g_direction - geom::dot(c.g_direction, c.direction) * c.direction);
+  const Vec2 g1 =
+      (s.gear * c.inverse_m) * (c.g_direction - geom::dot(c.g_direction, c.direction) * c.direction);
   double power = 1.0, slope = 0.0;  // w^k, k w^(k−1)
   for (int k = 0; k < 6; ++k) {
     const auto at = static_cast<std::size_t>(k * pieces_ + c.piece);
@@ -32,14 +33,16 @@ void RobotProblem::pull_back(const ClockState& c) {
 
 void RobotProblem::gradient(std::span<double> g) {
   std::fill(g.begin(), g.end(), 0.0);
-  // Start times: start_i = Σ_{k<i} (wait_k + T_k) + wait_i, and the price of time itself is on the last arrival.
+  // Start times: start_i = Σ_{k<i} (wait_k + T_k) + wait_i, and the price of time itself is on the last
+  // arrival.
   double later = 0.0;
   for (std::size_t i = segments_.size(); i-- > 0;) {
     Segment& s = segments_[i];
     s.g_h += later * s.time_pieces;
     later += s.g_start;
     if (s.wait >= 0) {
-      const double before = i == 0 ? 0.0 : segments_[i - 1].start + segments_[i - 1].h * segments_[i - 1].time_pieces;
+      const double before =
+          i == 0 ? 0.0 : segments_[i - 1].start + segments_[i - 1].h * segments_[i - 1].time_pieces;
       g[static_cast<std::size_t>(s.wait)] = (1.0 + later) * (s.start - before);
     }
   }
@@ -87,10 +90,12 @@ void RobotProblem::pull_segment(std::size_t index, std::span<double> g) {
 
   std::array<double, traj::UniformMinco::kMaxPieces + 5> zu{};
   traj::UniformMinco::with(s.time_pieces)
-      .add_adjoint(gcu_.data() + s.time_begin, time_pieces_, {zu.data(), static_cast<std::size_t>(s.time_pieces + 5)});
+      .add_adjoint(gcu_.data() + s.time_begin, time_pieces_,
+                   {zu.data(), static_cast<std::size_t>(s.time_pieces + 5)});
   for (int j = 1; j < s.time_pieces; ++j)
     g[static_cast<std::size_t>(s.progress + j - 1)] = zu[static_cast<std::size_t>(j + 2)];
-  const double scale = s.h * s.h / s.l, g_start = zu[2], g_end = -zu[static_cast<std::size_t>(s.time_pieces + 4)];
+  const double scale = s.h * s.h / s.l, g_start = zu[2],
+               g_end = -zu[static_cast<std::size_t>(s.time_pieces + 4)];
   a.g_alpha += scale * g_start;
   b.g_alpha += scale * g_end;
   const double both = a.alpha * g_start + b.alpha * g_end;

@@ -45,8 +45,11 @@ geom::Pose2 scaled(geom::Pose2 pose, const Units& units) {
 
 }  // namespace
 
-RobotProblem::RobotProblem(const RobotTask& task, const Units& units, const Settings& settings, const Demand& demand)
-    : settings_(settings), units_(units), model_(scaled(task.model, units, settings.tighten + demand.tighten)) {
+RobotProblem::RobotProblem(const RobotTask& task, const Units& units, const Settings& settings,
+                           const Demand& demand)
+    : settings_(settings),
+      units_(units),
+      model_(scaled(task.model, units, settings.tighten + demand.tighten)) {
   footprint_ = model_.footprint;
   reach_ = model_.reach();
   kappa_unit_ = task.model.max_curvature() * units.length;
@@ -82,7 +85,8 @@ void RobotProblem::lay_out(const RobotTask& task, const Units& units) {
   }
   for (int r = 0; r <= count; ++r) {
     Rest rest{};
-    const auto before = static_cast<std::size_t>(std::max(r - 1, 0)), after = static_cast<std::size_t>(std::min(r, count - 1));
+    const auto before = static_cast<std::size_t>(std::max(r - 1, 0)),
+               after = static_cast<std::size_t>(std::min(r, count - 1));
     const bool given = r == 0 || r == count;
     if (r == 0) {
       rest.pose = scaled(task.start, units);
@@ -93,7 +97,8 @@ void RobotProblem::lay_out(const RobotTask& task, const Units& units) {
       rest.curvature = guess_[before].end_curvature;
       rest.acceleration = guess_[before].end_deceleration;
     } else {
-      rest.pose = {guess_[after].points.front().x, guess_[after].points.front().y, guess_[after].start_heading};
+      rest.pose = {guess_[after].points.front().x, guess_[after].points.front().y,
+                   guess_[after].start_heading};
       rest.curvature = 0.5 * (guess_[before].end_curvature + guess_[after].start_curvature);
       rest.acceleration = std::sqrt(guess_[before].end_deceleration * guess_[after].start_acceleration);
     }
@@ -113,7 +118,8 @@ void RobotProblem::set_scale() {
   const auto piece_length = [&](std::size_t i) { return guess_[i].length / segments_[i].pieces; };
   for (std::size_t i = 0; i < segments_.size(); ++i) {
     const double l = piece_length(i), scale = std::min(1.0, l * l * kappa_unit_);
-    for (int j = 0; j < 2 * (segments_[i].pieces - 1); ++j) scale_[static_cast<std::size_t>(segments_[i].knots + j)] = scale;
+    for (int j = 0; j < 2 * (segments_[i].pieces - 1); ++j)
+      scale_[static_cast<std::size_t>(segments_[i].knots + j)] = scale;
   }
   for (std::size_t r = 0; r < rests_.size(); ++r) {
     if (rests_[r].pose_variable < 0) continue;
@@ -134,7 +140,8 @@ void RobotProblem::initial(std::span<double> x) const {
       at(s.knots + 2 * (j - 1)) = guess.points[static_cast<std::size_t>(j)].x;
       at(s.knots + 2 * (j - 1) + 1) = guess.points[static_cast<std::size_t>(j)].y;
     }
-    for (int j = 1; j < s.time_pieces; ++j) at(s.progress + j - 1) = guess.progress[static_cast<std::size_t>(j)] / l;
+    for (int j = 1; j < s.time_pieces; ++j)
+      at(s.progress + j - 1) = guess.progress[static_cast<std::size_t>(j)] / l;
     at(s.length) = std::log(l);
     at(s.duration) = std::log(guess.duration / s.time_pieces);
     if (s.wait >= 0) at(s.wait) = std::log(guess.wait);
@@ -178,8 +185,8 @@ void RobotProblem::load(std::span<const double> point) {
   for (auto* g : {&gcx_, &gcy_, &gcu_}) std::fill(g->begin(), g->end(), 0.0);
 }
 
-// Boundary rows of both splines: at a rest p' = η l d, p'' = κ l² n (κ of the front wheel: no η, so both sides of a cusp share it), u̇ = 0, and
-// ü = ±α / l. The progress rows are in normalised time (times h, h²).
+// Boundary rows of both splines: at a rest p' = η l d, p'' = κ l² n (κ of the front wheel: no η, so both
+// sides of a cusp share it), u̇ = 0, and ü = ±α / l. The progress rows are in normalised time (times h, h²).
 void RobotProblem::load_segment(std::size_t index, std::span<const double> x) {
   const Segment& s = segments_[index];
   const Rest &a = rests_[index], &b = rests_[index + 1];
@@ -188,14 +195,17 @@ void RobotProblem::load_segment(std::size_t index, std::span<const double> x) {
   const auto end = static_cast<std::size_t>(s.pieces + 2);
   const double first = s.gear * s.l, second = s.l * s.l;
   const Vec2 d0 = a.now.direction(), d1 = b.now.direction();
-  const auto curve = [&](double p0, double v0, double a0, double p1, double v1, double a1, int coordinate, double* out) {
+  const auto curve = [&](double p0, double v0, double a0, double p1, double v1, double a1, int coordinate,
+                         double* out) {
     z[0] = p0, z[1] = v0, z[2] = a0, z[end] = p1, z[end + 1] = v1, z[end + 2] = a1;
     for (int j = 1; j < s.pieces; ++j)
       z[static_cast<std::size_t>(j + 2)] = x[static_cast<std::size_t>(s.knots + 2 * (j - 1) + coordinate)];
     traj::UniformMinco::with(s.pieces).coefficients({z.data(), rows}, out + s.piece_begin, pieces_);
   };
-  curve(a.now.x, first * d0.x, -a.kappa * second * d0.y, b.now.x, first * d1.x, -b.kappa * second * d1.y, 0, cx_.data());
-  curve(a.now.y, first * d0.y, a.kappa * second * d0.x, b.now.y, first * d1.y, b.kappa * second * d1.x, 1, cy_.data());
+  curve(a.now.x, first * d0.x, -a.kappa * second * d0.y, b.now.x, first * d1.x, -b.kappa * second * d1.y, 0,
+        cx_.data());
+  curve(a.now.y, first * d0.y, a.kappa * second * d0.x, b.now.y, first * d1.y, b.kappa * second * d1.x, 1,
+        cy_.data());
 
   const auto t_end = static_cast<std::size_t>(s.time_pieces + 2);
   const double scale = s.h * s.h / s.l;
@@ -206,13 +216,15 @@ void RobotProblem::load_segment(std::size_t index, std::span<const double> x) {
     z[static_cast<std::size_t>(j + 2)] = x[static_cast<std::size_t>(s.progress + j - 1)];
   z[t_end] = s.pieces, z[t_end + 1] = 0.0, z[t_end + 2] = -b.alpha * scale;
   traj::UniformMinco::with(s.time_pieces)
-      .coefficients({z.data(), static_cast<std::size_t>(s.time_pieces + 5)}, cu_.data() + s.time_begin, time_pieces_);
+      .coefficients({z.data(), static_cast<std::size_t>(s.time_pieces + 5)}, cu_.data() + s.time_begin,
+                    time_pieces_);
 }
 
 void RobotProblem::locate(double t, ClockState& state) const {
   std::size_t index = segments_.size() - 1;
   while (index > 0 && t < segments_[index].start) {
-    // Between two segments the car rests at the later one's start as well as at the earlier one's end; take the earlier end.
+    // Between two segments the car rests at the later one's start as well as at the earlier one's end; take
+    // the earlier end.
     const Segment& before = segments_[index - 1];
     if (t >= before.start + before.h * before.time_pieces) {
       --index;
@@ -228,8 +240,10 @@ void RobotProblem::locate(double t, ClockState& state) const {
   const double wt = rho - tp;
   const double* cu = cu_.data() + s.time_begin + tp;
   const int ts = time_pieces_;
-  const double u = cu[0] + wt * (cu[ts] + wt * (cu[2 * ts] + wt * (cu[3 * ts] + wt * (cu[4 * ts] + wt * cu[5 * ts]))));
-  const double du = cu[ts] + wt * (2 * cu[2 * ts] + wt * (3 * cu[3 * ts] + wt * (4 * cu[4 * ts] + wt * 5 * cu[5 * ts])));
+  const double u =
+      cu[0] + wt * (cu[ts] + wt * (cu[2 * ts] + wt * (cu[3 * ts] + wt * (cu[4 * ts] + wt * cu[5 * ts]))));
+  const double du =
+      cu[ts] + wt * (2 * cu[2 * ts] + wt * (3 * cu[3 * ts] + wt * (4 * cu[4 * ts] + wt * 5 * cu[5 * ts])));
   const int piece = static_cast<int>(inside(u, s.pieces - 1));
   const double w = u - piece;
   const auto derivatives = [&](const double* c, double& p, double& d1, double& d2) {
@@ -247,8 +261,10 @@ void RobotProblem::locate(double t, ClockState& state) const {
   state.w = w, state.wt = wt, state.rho = rho;
   // Resting, nothing depends on time.
   const bool resting = t <= s.start || rho >= s.time_pieces;
-  state.u1 = resting && !(index == 0 && moving_start() && t >= s.start && rho < s.time_pieces) ? 0.0 : du / s.h;
-  state.segment = static_cast<int>(index), state.piece = s.piece_begin + piece, state.time_piece = s.time_begin + tp;
+  state.u1 =
+      resting && !(index == 0 && moving_start() && t >= s.start && rho < s.time_pieces) ? 0.0 : du / s.h;
+  state.segment = static_cast<int>(index), state.piece = s.piece_begin + piece,
+  state.time_piece = s.time_begin + tp;
 }
 
 traj::RobotTrajectory RobotProblem::trajectory() const {
@@ -263,7 +279,8 @@ traj::RobotTrajectory RobotProblem::trajectory() const {
     for (int j = 0; j < s.pieces; ++j) {
       std::array<traj::Quintic, 2> piece;
       for (std::size_t k = 0; k < 6; ++k) {
-        const std::size_t from = k * static_cast<std::size_t>(pieces_) + static_cast<std::size_t>(s.piece_begin + j);
+        const std::size_t from =
+            k * static_cast<std::size_t>(pieces_) + static_cast<std::size_t>(s.piece_begin + j);
         piece[0][k] = cx_[from] * units_.length;
         piece[1][k] = cy_[from] * units_.length;
       }
@@ -272,7 +289,8 @@ traj::RobotTrajectory RobotProblem::trajectory() const {
     for (int j = 0; j < s.time_pieces; ++j) {
       traj::Quintic piece;
       for (std::size_t k = 0; k < 6; ++k)
-        piece[k] = cu_[k * static_cast<std::size_t>(time_pieces_) + static_cast<std::size_t>(s.time_begin + j)];
+        piece[k] =
+            cu_[k * static_cast<std::size_t>(time_pieces_) + static_cast<std::size_t>(s.time_begin + j)];
       out.progress.push_back(piece);
     }
     result.segments.push_back(std::move(out));
@@ -284,7 +302,8 @@ std::vector<geom::Pose2> sample_poses(const SegmentGuess& segment) {
   const int pieces = segment.pieces();
   const double l = segment.length / pieces;
   const Vec2 d0 = geom::unit(segment.start_heading), d1 = geom::unit(segment.end_heading);
-  const double first = segment.gear * l, k0 = segment.start_curvature * l * l, k1 = segment.end_curvature * l * l;
+  const double first = segment.gear * l, k0 = segment.start_curvature * l * l,
+               k1 = segment.end_curvature * l * l;
   const auto& spline = traj::UniformMinco::with(pieces);
   std::vector<double> c(static_cast<std::size_t>(12 * pieces));
   for (int coordinate = 0; coordinate < 2; ++coordinate) {

@@ -10,15 +10,16 @@
 
 namespace seine::trajopt {
 
-/// A car's pose at one tick of the common clock, with what the chain rule needs; and ∂J/∂(position, direction), filled in by the pair terms.
+/// A car's pose at one tick of the common clock, with what the chain rule needs; and ∂J/∂(position,
+/// direction), filled in by the pair terms.
 struct ClockState {
-  geom::Vec2 position, direction;     ///< rear axle; unit heading of the body
+  geom::Vec2 position, direction;  ///< rear axle; unit heading of the body
   geom::Vec2 g_position, g_direction;
-  geom::Vec2 d1, d2;                  ///< p', p'' with respect to u
-  double inverse_m = 1.0;             ///< 1/|p'|
-  double w = 0.0;                     ///< within the curve's piece
-  double wt = 0.0, rho = 0.0;         ///< within the progress piece; in pieces since the segment began
-  double u1 = 0.0;                    ///< u̇; 0 at rest
+  geom::Vec2 d1, d2;           ///< p', p'' with respect to u
+  double inverse_m = 1.0;      ///< 1/|p'|
+  double w = 0.0;              ///< within the curve's piece
+  double wt = 0.0, rho = 0.0;  ///< within the progress piece; in pieces since the segment began
+  double u1 = 0.0;             ///< u̇; 0 at rest
   int segment = 0, piece = 0, time_piece = 0;  ///< pieces counted over all segments
 };
 
@@ -28,16 +29,19 @@ struct Demand {
   double tighten = 0.0;  ///< on top of Settings::tighten
 };
 
-/// One car in the two-layer form (docs/trajectory.md): its variables, its own cost and limits, its pose on the common clock, and the chain rule
-/// back to the variables. Knows nothing of other cars. Everything inside is in `Units`.
+/// One car in the two-layer form (docs/trajectory.md): its variables, its own cost and limits, its pose on
+/// the common clock, and the chain rule back to the variables. Knows nothing of other cars. Everything inside
+/// is in `Units`.
 ///
-/// Variables, segment after segment: interior knots (x, y), interior progress, log l, log h, log wait (only where the guess waits); then a pose
-/// and a curvature (x, y, θ, κ/κ_max) for each rest between segments; curvature at start and goal; the acceleration magnitude at each rest
-/// (logarithm; at a moving start the acceleration itself). Positions are scaled so that a unit step bends the curve about as much on a short
+/// Variables, segment after segment: interior knots (x, y), interior progress, log l, log h, log wait (only
+/// where the guess waits); then a pose and a curvature (x, y, θ, κ/κ_max) for each rest between segments;
+/// curvature at start and goal; the acceleration magnitude at each rest (logarithm; at a moving start the
+/// acceleration itself). Positions are scaled so that a unit step bends the curve about as much on a short
 /// piece as on a long one: without that a manoeuvre of a few centimetres stalls the whole problem.
 class RobotProblem {
  public:
-  RobotProblem(const RobotTask& task, const Units& units, const Settings& settings, const Demand& demand = {});
+  RobotProblem(const RobotTask& task, const Units& units, const Settings& settings,
+               const Demand& demand = {});
 
   int variables() const { return variables_; }
   void initial(std::span<double> x) const;
@@ -59,9 +63,9 @@ class RobotProblem {
  private:
   struct Segment {
     int gear, pieces, time_pieces;
-    int piece_begin, time_begin;             // into the coefficient arrays
-    int knots, progress, length, duration;   // variable indices
-    int wait;                                // variable index, −1 when it does not wait
+    int piece_begin, time_begin;            // into the coefficient arrays
+    int knots, progress, length, duration;  // variable indices
+    int wait;                               // variable index, −1 when it does not wait
     double speed_limit;
     // Current values.
     double l, h, start;  // start: when it begins to move
@@ -72,7 +76,7 @@ class RobotProblem {
     geom::Pose2 pose;  // guess, or given
     double curvature;  // κ/κ_max, guess
     double acceleration;
-    int pose_variable;          // −1 when given
+    int pose_variable;  // −1 when given
     int curvature_variable;
     int acceleration_variable;
     // Current values.
@@ -95,13 +99,14 @@ class RobotProblem {
 
   Settings settings_;
   Units units_;
-  vehicle::Model model_;                    // limits in units
-  std::vector<geom::Vec2> footprint_;       // units
-  double reach_ = 0.0, kappa_max_ = 1.0, kappa_unit_ = 1.0, start_speed_ = 0.0, time_weight_ = 1.0, sample_weight_ = 0.0, curve_weight_ = 0.0;
-  std::vector<SegmentGuess> guess_;         // units
+  vehicle::Model model_;               // limits in units
+  std::vector<geom::Vec2> footprint_;  // units
+  double reach_ = 0.0, kappa_max_ = 1.0, kappa_unit_ = 1.0, start_speed_ = 0.0, time_weight_ = 1.0,
+         sample_weight_ = 0.0, curve_weight_ = 0.0;
+  std::vector<SegmentGuess> guess_;  // units
   std::vector<Segment> segments_;
-  std::vector<Rest> rests_;                 // segments + 1
-  corridor::Corridor corridor_;             // units
+  std::vector<Rest> rests_;        // segments + 1
+  corridor::Corridor corridor_;    // units
   std::vector<double> scale_, x_;  // of each variable; the present point, scale taken out
   int variables_ = 0, pieces_ = 0, time_pieces_ = 0;
   double arrival_ = 0.0;

@@ -11,13 +11,14 @@ namespace seine::trajopt {
 /// The guess for one stretch in one gear, SI units.
 struct SegmentGuess {
   int gear = 1;
-  double wait = 0.0;                  ///< s, at rest before it begins
-  double duration = 1.0;              ///< s
-  double length = 1.0;                ///< m
-  std::vector<geom::Vec2> points;     ///< M + 1 points, equally spaced along the path: the spline's knots
-  std::vector<double> progress;       ///< driven length (m) at the ends of its equal time pieces, from 0 to `length`
-  double start_heading = 0.0, end_heading = 0.0;        ///< of the body, rad
-  double start_curvature = 0.0, end_curvature = 0.0;    ///< of the front wheel, 1/m
+  double wait = 0.0;               ///< s, at rest before it begins
+  double duration = 1.0;           ///< s
+  double length = 1.0;             ///< m
+  std::vector<geom::Vec2> points;  ///< M + 1 points, equally spaced along the path: the spline's knots
+  std::vector<double>
+      progress;  ///< driven length (m) at the ends of its equal time pieces, from 0 to `length`
+  double start_heading = 0.0, end_heading = 0.0;            ///< of the body, rad
+  double start_curvature = 0.0, end_curvature = 0.0;        ///< of the front wheel, 1/m
   double start_acceleration = 1.0, end_deceleration = 1.0;  ///< m/s², magnitudes at the rests, > 0
 
   int pieces() const { return static_cast<int>(points.size()) - 1; }
@@ -35,7 +36,8 @@ struct RobotTask {
   corridor::Corridor corridor;
 };
 
-/// Poses at the curve samples of a guess, in the order that RobotTask::corridor wants them: corridors are built around these.
+/// Poses at the curve samples of a guess, in the order that RobotTask::corridor wants them: corridors are
+/// built around these.
 std::vector<geom::Pose2> sample_poses(const SegmentGuess& segment);
 
 /// What the problem is made dimensionless with.

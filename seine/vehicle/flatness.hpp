@@ -4,7 +4,8 @@
 
 namespace seine::vehicle {
 
-/// The flat map of a curve p(u) traversed by u(t), gear left out (docs/trajectory.md): with m = |p'|, D = p'·p''/m, X = p'×p''/m,
+/// The flat map of a curve p(u) traversed by u(t), gear left out (docs/trajectory.md): with m = |p'|, D =
+/// p'·p''/m, X = p'×p''/m,
 ///   speed v = m u̇,   a_t = m ü + D u̇²,   a_n = X u̇²,   κ = X/m².
 /// Driving backwards, the signed quantities are η v, η a_t, and the front wheel's curvature η κ.
 struct FlatMotion {
@@ -13,10 +14,10 @@ struct FlatMotion {
 };
 
 struct Motion {
-  double m, D, X;        ///< |p'|, p'·p''/m, p'×p''/m
-  double speed;          ///< v
-  double tangential;     ///< a_t
-  double lateral;        ///< a_n
+  double m, D, X;     ///< |p'|, p'·p''/m, p'×p''/m
+  double speed;       ///< v
+  double tangential;  ///< a_t
+  double lateral;     ///< a_n
 };
 
 inline Motion motion_of(const FlatMotion& f) {

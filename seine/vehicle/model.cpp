@@ -4,9 +4,13 @@
 
 namespace seine::vehicle {
 
-double Model::length() const { return geom::bounding_box(footprint).size().x; }
+double Model::length() const {
+  return geom::bounding_box(footprint).size().x;
+}
 
-double Model::width() const { return geom::bounding_box(footprint).size().y; }
+double Model::width() const {
+  return geom::bounding_box(footprint).size().y;
+}
 
 double Model::reach() const {
   double reach = 0.0;
@@ -31,14 +35,12 @@ Model clmapf_car() {
 }
 
 Model tpcap_car() {
-  return {.name = "tpcap",
-          .footprint = rectangle_footprint(2.8 + 0.96 + 0.929, 1.942, 0.929),
-          .wheelbase = 2.8,
-          .limits = {.speed = 2.5,
-                     .reverse_speed = 2.5,
-                     .acceleration = 1.0,
-                     .steering = 0.75,
-                     .steering_rate = 0.5}};
+  return {
+      .name = "tpcap",
+      .footprint = rectangle_footprint(2.8 + 0.96 + 0.929, 1.942, 0.929),
+      .wheelbase = 2.8,
+      .limits = {
+          .speed = 2.5, .reverse_speed = 2.5, .acceleration = 1.0, .steering = 0.75, .steering_rate = 0.5}};
 }
 
 }  // namespace seine::vehicle

@@ -11,16 +11,16 @@ namespace seine::vehicle {
 
 /// What a car can do. SI units; infinity means no limit.
 struct Limits {
-  double speed = 2.5;                                                        ///< m/s, forwards
-  double reverse_speed = 2.5;                                                ///< m/s, backwards, ≥ 0
-  double acceleration = 3.0;                                                 ///< m/s², |a_t|, both speeding up and braking
-  double lateral_acceleration = std::numeric_limits<double>::infinity();     ///< m/s², |a_n| = v² |κ|
-  double steering = 0.70;                                                    ///< rad, |φ|
-  double steering_rate = std::numeric_limits<double>::infinity();            ///< rad/s, |φ̇|
+  double speed = 2.5;          ///< m/s, forwards
+  double reverse_speed = 2.5;  ///< m/s, backwards, ≥ 0
+  double acceleration = 3.0;   ///< m/s², |a_t|, both speeding up and braking
+  double lateral_acceleration = std::numeric_limits<double>::infinity();  ///< m/s², |a_n| = v² |κ|
+  double steering = 0.70;                                                 ///< rad, |φ|
+  double steering_rate = std::numeric_limits<double>::infinity();         ///< rad/s, |φ̇|
 };
 
-/// A car: kinematic bicycle ẋ = v cos θ, ẏ = v sin θ, θ̇ = v tan φ / L, v̇ = a, with a convex footprint. The body frame's origin is
-/// the middle of the rear axle, x forward.
+/// A car: kinematic bicycle ẋ = v cos θ, ẏ = v sin θ, θ̇ = v tan φ / L, v̇ = a, with a convex footprint. The
+/// body frame's origin is the middle of the rear axle, x forward.
 struct Model {
   std::string name = "default";
   std::vector<geom::Vec2> footprint;  ///< convex, counter-clockwise, body frame, metres

@@ -24,19 +24,20 @@ struct Circle {
   double radius = 0.0;
 };
 
-/// Something to stay clear of. Static: the shape is in world coordinates and `motion` is empty. Moving: the shape is in a body
-/// frame that goes straight between the waypoints on the common clock, stands at the first before it and at the last after it.
-/// (Loaders turn a moving circle's `center` and a moving polygon into that frame.)
+/// Something to stay clear of. Static: the shape is in world coordinates and `motion` is empty. Moving: the
+/// shape is in a body frame that goes straight between the waypoints on the common clock, stands at the first
+/// before it and at the last after it. (Loaders turn a moving circle's `center` and a moving polygon into
+/// that frame.)
 struct Obstacle {
-  std::string name;                                        ///< for messages: the user's, or "obstacle 3" (counted from 1)
-  std::variant<std::vector<geom::Vec2>, Circle> shape;     ///< a simple polygon, or a circle
-  double height = std::numeric_limits<double>::infinity(); ///< m
-  std::vector<Waypoint> motion;                            ///< times strictly increasing
+  std::string name;  ///< for messages: the user's, or "obstacle 3" (counted from 1)
+  std::variant<std::vector<geom::Vec2>, Circle> shape;      ///< a simple polygon, or a circle
+  double height = std::numeric_limits<double>::infinity();  ///< m
+  std::vector<Waypoint> motion;                             ///< times strictly increasing
 };
 
 struct Robot {
   std::string name;
-  int model = 0;             ///< index into Scenario::models
+  int model = 0;  ///< index into Scenario::models
   geom::Pose2 start;
   double start_speed = 0.0;  ///< m/s, signed
   geom::Pose2 goal;          ///< reached at rest
@@ -51,14 +52,16 @@ struct Margins {
 /// The question: who, where, among what, to where. Plain data; SI units, radians, one fixed frame.
 struct Scenario {
   std::string name;
-  geom::Box bounds;                         ///< footprints stay inside
+  geom::Box bounds;  ///< footprints stay inside
   std::optional<geom::OccupancyGrid> map;
   std::vector<Obstacle> obstacles;
-  std::vector<vehicle::Model> models;       ///< at least one
+  std::vector<vehicle::Model> models;  ///< at least one
   Margins margins;
   std::vector<Robot> robots;
 
-  const vehicle::Model& model_of(const Robot& robot) const { return models[static_cast<std::size_t>(robot.model)]; }
+  const vehicle::Model& model_of(const Robot& robot) const {
+    return models[static_cast<std::size_t>(robot.model)];
+  }
 };
 
 }  // namespace seine::world

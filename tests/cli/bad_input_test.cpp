@@ -144,7 +144,7 @@ TEST(BadInput, PlansAreDoubted) {
         std::string("\xff\xfe\x00\x01", 4)}) {
     scratch.write("p.json", text);
     for (const char* command : {"certify s.yaml p.json", "plot s.yaml p.json -o p.svg",
-                                       "export s.yaml p.json --rate 10 -o p.csv"}) {
+                                "export s.yaml p.json --rate 10 -o p.csv"}) {
       const Outcome outcome = scratch.run(command);
       EXPECT_EQ(outcome.status, 2) << command << ": " << outcome.err;
       EXPECT_TRUE(is_one_line(outcome.err)) << outcome.err;

@@ -59,9 +59,12 @@ TEST(InterVehicle, IsTheExactDistanceOfRectangles) {
     const geom::Pose2 a{rng.uniform(-1.5, 1.5), rng.uniform(-1.5, 1.5), rng.uniform(-3, 3)};
     const geom::Pose2 b{rng.uniform(-1.5, 1.5), rng.uniform(-1.5, 1.5), rng.uniform(-3, 3)};
     PairGradient unused;
-    const double value = inter_vehicle({a.position(), a.direction(), 0.2, 0.5, 0.3}, {b.position(), b.direction(), -0.1, 0.7, 0.2}, unused);
-    const geom::Convex shape_a = geom::placed({rectangle(-0.3, 0.7, 0.3), 0.0}, a), shape_b = geom::placed({rectangle(-0.8, 0.6, 0.2), 0.0}, b);
-    EXPECT_NEAR(value, geom::separation(shape_a, shape_b).distance, 1e-9) << "seed " << kSeed << ", case " << i;
+    const double value = inter_vehicle({a.position(), a.direction(), 0.2, 0.5, 0.3},
+                                       {b.position(), b.direction(), -0.1, 0.7, 0.2}, unused);
+    const geom::Convex shape_a = geom::placed({rectangle(-0.3, 0.7, 0.3), 0.0}, a),
+                       shape_b = geom::placed({rectangle(-0.8, 0.6, 0.2), 0.0}, b);
+    EXPECT_NEAR(value, geom::separation(shape_a, shape_b).distance, 1e-9)
+        << "seed " << kSeed << ", case " << i;
   }
 }
 

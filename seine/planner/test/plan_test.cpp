@@ -20,7 +20,8 @@ constexpr int kSeeds = 5;
 constexpr double kStep = 0.002;
 #endif
 
-// What a stranger with a stopwatch and a ruler would find: every limit and every distance, at many instants, without the certificate.
+// What a stranger with a stopwatch and a ruler would find: every limit and every distance, at many instants,
+// without the certificate.
 void expect_kept(const world::Scenario& scenario, const traj::TeamTrajectory& plan) {
   const world::StaticMap map(scenario);
   std::vector<std::vector<geom::Vec2>> footprints(scenario.robots.size());
@@ -30,14 +31,17 @@ void expect_kept(const world::Scenario& scenario, const traj::TeamTrajectory& pl
       const traj::State s = plan.robots[k].at(t);
       ASSERT_LE(s.speed, model.limits.speed * (1 + 1e-6)) << "car " << k << " at " << t;
       ASSERT_GE(s.speed, -model.limits.reverse_speed * (1 + 1e-6)) << "car " << k << " at " << t;
-      ASSERT_LE(std::abs(s.acceleration), model.limits.acceleration * (1 + 1e-6)) << "car " << k << " at " << t;
-      ASSERT_LE(std::abs(s.lateral_acceleration), model.limits.lateral_acceleration * (1 + 1e-6)) << "car " << k << " at " << t;
+      ASSERT_LE(std::abs(s.acceleration), model.limits.acceleration * (1 + 1e-6))
+          << "car " << k << " at " << t;
+      ASSERT_LE(std::abs(s.lateral_acceleration), model.limits.lateral_acceleration * (1 + 1e-6))
+          << "car " << k << " at " << t;
       ASSERT_LE(std::abs(s.curvature), model.max_curvature() * (1 + 1e-6)) << "car " << k << " at " << t;
       footprints[k].resize(model.footprint.size());
       geom::place(model.footprint, s.pose, footprints[k]);
       ASSERT_TRUE(map.clear(footprints[k], scenario.margins.obstacle - 2e-4)) << "car " << k << " at " << t;
       for (std::size_t j = 0; j < k; ++j)
-        ASSERT_GE(geom::distance(footprints[k], footprints[j]), scenario.margins.robot - 2e-4) << k << ", " << j << " at " << t;
+        ASSERT_GE(geom::distance(footprints[k], footprints[j]), scenario.margins.robot - 2e-4)
+            << k << ", " << j << " at " << t;
     }
   }
   for (std::size_t k = 0; k < scenario.robots.size(); ++k) {
@@ -116,7 +120,8 @@ TEST(Plan, IsTheSameForAnyNumberOfThreads) {
 TEST(Plan, SaysNoWithAReasonWhereThereIsNoWay) {
   world::Scenario scenario = open_field();
   scenario.robots = {robot("a", {0.0, 0.0, 0.0}, {10.0, 0.0, 0.0})};
-  scenario.obstacles = {{.name = "wall", .shape = std::vector<geom::Vec2>{{5.0, -4.0}, {5.5, -4.0}, {5.5, 4.0}, {5.0, 4.0}}}};
+  scenario.obstacles = {
+      {.name = "wall", .shape = std::vector<geom::Vec2>{{5.0, -4.0}, {5.5, -4.0}, {5.5, 4.0}, {5.0, 4.0}}}};
   const PlanResult result = plan(scenario);
   EXPECT_FALSE(result.certified);
   EXPECT_NE(result.reason.find("a"), std::string::npos) << result.reason;
@@ -125,7 +130,8 @@ TEST(Plan, SaysNoWithAReasonWhereThereIsNoWay) {
 TEST(Plan, RefusesAScenarioThatIsWrongInItself) {
   world::Scenario scenario = open_field();
   EXPECT_THROW(plan(scenario), InputError);
-  scenario.robots = {robot("a", {0.0, 0.0, 0.0}, {10.0, 0.0, 0.0}), robot("b", {0.3, 0.1, 0.0}, {10.0, 2.0, 0.0})};
+  scenario.robots = {robot("a", {0.0, 0.0, 0.0}, {10.0, 0.0, 0.0}),
+                     robot("b", {0.3, 0.1, 0.0}, {10.0, 2.0, 0.0})};
   EXPECT_THROW(plan(scenario), InputError);
 }
 

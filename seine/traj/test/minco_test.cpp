@@ -36,7 +36,8 @@ TEST(UniformMinco, InterpolatesKeepsItsBoundaryAndIsFourTimesContinuous) {
     spline.coefficients(z, c.data(), pieces);
     for (int order = 0; order < 3; ++order) {
       EXPECT_NEAR(derivative(c, pieces, 0, order, 0.0), z[static_cast<std::size_t>(order)], 1e-9);
-      EXPECT_NEAR(derivative(c, pieces, pieces - 1, order, 1.0), z[static_cast<std::size_t>(pieces + 2 + order)], 1e-8);
+      EXPECT_NEAR(derivative(c, pieces, pieces - 1, order, 1.0),
+                  z[static_cast<std::size_t>(pieces + 2 + order)], 1e-8);
     }
     for (int j = 1; j < pieces; ++j) {
       EXPECT_NEAR(derivative(c, pieces, j, 0, 0.0), z[static_cast<std::size_t>(j + 2)], 1e-9);
@@ -51,13 +52,15 @@ double energy(const std::vector<double>& c, int pieces) {
   double sum = 0.0;
   for (int j = 0; j < pieces; ++j) {
     std::array<double, 6> piece;
-    for (std::size_t k = 0; k < 6; ++k) piece[k] = c[k * static_cast<std::size_t>(pieces) + static_cast<std::size_t>(j)];
+    for (std::size_t k = 0; k < 6; ++k)
+      piece[k] = c[k * static_cast<std::size_t>(pieces) + static_cast<std::size_t>(j)];
     sum += jerk_energy(piece);
   }
   return sum;
 }
 
-// Of all curves through the same points with the same ends, the spline has the least jerk: bending a C² curve away from it by any admissible amount costs.
+// Of all curves through the same points with the same ends, the spline has the least jerk: bending a C² curve
+// away from it by any admissible amount costs.
 TEST(UniformMinco, HasLeastJerk) {
   Rng rng(kSeed);
   const int pieces = 6;
@@ -66,7 +69,8 @@ TEST(UniformMinco, HasLeastJerk) {
     const std::vector<double> z = random_vector(rng, spline.rows());
     std::vector<double> c(6 * pieces);
     spline.coefficients(z, c.data(), pieces);
-    // w³(1−w)³ is zero with its first two derivatives at both ends; its quintic stand-in changes v and a at one interior knot.
+    // w³(1−w)³ is zero with its first two derivatives at both ends; its quintic stand-in changes v and a at
+    // one interior knot.
     std::vector<double> moved = c;
     const int knot = 1 + rng.below(pieces - 1);
     const double dv = 0.1 * rng.normal(), da = 0.1 * rng.normal();

@@ -26,12 +26,14 @@ SegmentGuess wavy(Rng& rng, geom::Pose2 from, int gear, double length, double wa
   }
   for (int j = 0; j <= times; ++j) {
     const double r = static_cast<double>(j) / times;
-    guess.progress.push_back(length * (r * r * (3 - 2 * r) + (j == 0 || j == times ? 0.0 : 0.02 * rng.normal())));
+    guess.progress.push_back(length *
+                             (r * r * (3 - 2 * r) + (j == 0 || j == times ? 0.0 : 0.02 * rng.normal())));
   }
   return guess;
 }
 
-// Three cars that cross, with waits, a cusp, a moving start, corridors, a moving body and a steering-rate limit: every term is active.
+// Three cars that cross, with waits, a cusp, a moving start, corridors, a moving body and a steering-rate
+// limit: every term is active.
 struct Busy {
   std::vector<RobotTask> robots;
   Body body;
@@ -44,14 +46,17 @@ void make_busy(std::uint64_t seed, bool rectangles, Busy& busy) {
   for (int k = 0; k < 3; ++k) {
     RobotTask robot;
     robot.model.footprint = vehicle::rectangle_footprint(0.6, 0.4, 0.1);
-    if (!rectangles) robot.model.footprint = {{-0.1, -0.2}, {0.4, -0.2}, {0.5, 0.0}, {0.3, 0.22}, {-0.1, 0.2}};
-    robot.model.limits = {.speed = 1.5, .reverse_speed = 1.0, .acceleration = 1.5, .lateral_acceleration = 1.0};
+    if (!rectangles)
+      robot.model.footprint = {{-0.1, -0.2}, {0.4, -0.2}, {0.5, 0.0}, {0.3, 0.22}, {-0.1, 0.2}};
+    robot.model.limits = {
+        .speed = 1.5, .reverse_speed = 1.0, .acceleration = 1.5, .lateral_acceleration = 1.0};
     if (k == 1) robot.model.limits.steering_rate = 0.6;
     const double heading = 2.1 * k;
     robot.start = {-1.2 * std::cos(heading), -1.2 * std::sin(heading), heading};
     robot.start_speed = k == 2 ? 0.8 : 0.0;
     robot.segments.push_back(wavy(rng, robot.start, 1, 2.5, k == 0 ? 0.4 : 0.0));
-    geom::Pose2 at{robot.segments[0].points.back().x, robot.segments[0].points.back().y, robot.segments[0].end_heading};
+    geom::Pose2 at{robot.segments[0].points.back().x, robot.segments[0].points.back().y,
+                   robot.segments[0].end_heading};
     if (k == 1) {
       robot.segments.push_back(wavy(rng, at, -1, 1.2, 0.3));
       const auto& last = robot.segments.back();
@@ -74,7 +79,8 @@ void make_busy(std::uint64_t seed, bool rectangles, Busy& busy) {
   Body& body = busy.body;
   body.shape = shape_of(std::vector<Vec2>{{0.0, 0.0}, {0.5, 0.1}, {0.1, 0.5}}, task.units.length);
   body.radius = 0.1, body.clearance = 0.1;
-  for (int tick = 0; tick < task.ticks; ++tick) body.placements.push_back({{0.5, 0.02 * tick}, geom::unit(0.01 * tick)});
+  for (int tick = 0; tick < task.ticks; ++tick)
+    body.placements.push_back({{0.5, 0.02 * tick}, geom::unit(0.01 * tick)});
   task.bodies.push_back(&body);
 }
 
@@ -102,10 +108,11 @@ TEST(JointProblem, GradientAgreesWithCentralDifferencesWithEveryTermActive) {
   std::vector<double> errors;
   for (const bool rectangles : {true, false})
     for (const double knee : {0.3, 0.03})
-      for (std::uint64_t seed = 1; seed <= 6; ++seed, ++runs) errors.push_back(worst_error(seed, rectangles, knee, kinks));
+      for (std::uint64_t seed = 1; seed <= 6; ++seed, ++runs)
+        errors.push_back(worst_error(seed, rectangles, knee, kinks));
   std::sort(errors.begin(), errors.end());
-  std::printf("gradient error: median %.1e, worst %.1e, over 2e-6 in %d of %d\n", errors[errors.size() / 2], errors.back(),
-              kinks, runs);
+  std::printf("gradient error: median %.1e, worst %.1e, over 2e-6 in %d of %d\n", errors[errors.size() / 2],
+              errors.back(), kinks, runs);
   EXPECT_LT(errors[errors.size() / 2], 1e-6);
   EXPECT_LE(kinks, runs / 6);
 }

@@ -101,7 +101,8 @@ TEST(ReedsShepp, ClosedForms) {
   EXPECT_NEAR(length({}, {1, 1, kPi / 2}, 1.0), kPi / 2, 1e-9);
   EXPECT_NEAR(length({}, {0, 0, kPi}, 1.0), kPi, 1e-9) << "turning on the spot: three sixths of a circle";
   EXPECT_NEAR(length({}, {0, 0, 0}, 1.0), 0.0, 1e-12);
-  // Left, straight, left: the straight joins two unit circles around (0, 1) and (5, 5), a quarter turn is shared.
+  // Left, straight, left: the straight joins two unit circles around (0, 1) and (5, 5), a quarter turn is
+  // shared.
   EXPECT_NEAR(length({}, {6, 5, kPi / 2}, 1.0), std::hypot(5.0, 4.0) + kPi / 2, 1e-9);
 }
 
