@@ -1,4 +1,4 @@
-// What every room above stands on: exact distances, queries of the map, Reeds-Shepp curves.
+// What every room above stands on: exact distances, queries of the map.
 #include <benchmark/benchmark.h>
 
 #include <array>
@@ -7,7 +7,6 @@
 #include "seine/base/rng.hpp"
 #include "seine/geom/convex.hpp"
 #include "seine/vehicle/model.hpp"
-#include "seine/vehicle/reeds_shepp.hpp"
 #include "seine/world/families.hpp"
 #include "seine/world/static_map.hpp"
 
@@ -60,19 +59,5 @@ void map_is_clear(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations());
 }
 BENCHMARK(map_is_clear);
-
-void reeds_shepp(benchmark::State& state) {
-  Rng rng(3);
-  std::vector<Pose2> poses;
-  for (std::size_t i = 0; i < kCases; ++i) poses.push_back(random_pose(rng, 3.0));
-  std::size_t i = 0;
-  for (auto _ : state) {
-    benchmark::DoNotOptimize(
-        seine::vehicle::reeds_shepp(poses[i % kCases], poses[(i * 7 + 1) % kCases], 0.5));
-    ++i;
-  }
-  state.SetItemsProcessed(state.iterations());
-}
-BENCHMARK(reeds_shepp);
 
 }  // namespace
