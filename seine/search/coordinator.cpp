@@ -56,30 +56,30 @@ Coordinator::Coordinator(const world::Scenario& scenario, const LatticeOptions& 
     for (const MovingPart& part : parts) obstacles_[c].emplace_back(part.shape, part.motion, clocks_[c]);
 }
 
-WayPtr Coordinator::make_way(int robot, Path path) const {
+std::shared_ptr<Way> Coordinator::make_way(int robot, Path path) const {
   const Kind& kind = *car(robot).kind;
+  const double start_speed = scenario_.robots[idx(robot)].start_speed;
   auto way = std::make_shared<Way>(
-      Way{SpeedLattice(std::move(path), kind.grid, kind.footprint, scenario_.robots[idx(robot)].start_speed),
-          0.0,
-          {},
-          {},
-          0});
+      Way{SpeedLattice(std::move(path), kind.grid, kind.footprint, start_speed), 0.0, {}, {}, 0});
   if (!way->lattice.drivable()) return nullptr;
-  VelocityWorkspace workspace;
-  workspace.occupied.reset(way->lattice, 1);
-  constexpr int kEndless = 1 << 20;
-  VelocityPlan plan = plan_velocity(way->lattice, workspace, {.ticks = kEndless, .want_reach = true});
-  if (!plan.found) return nullptr;
-  way->alone = plan.arrival;
-  way->reach = std::move(plan.reach);
-  way->unhindered = std::move(plan);
+  way->reach = way->lattice.reach();
+  way->alone = kind.grid.half_step() * static_cast<double>(std::max<std::size_t>(way->reach.size(), 1) - 1);
   way->serial = ++serial_;
   return way;
 }
 
+bool Coordinator::finish_way(Way& way) const {
+  VelocityWorkspace workspace;
+  workspace.occupied.reset(way.lattice, 1);
+  constexpr int kEndless = 1 << 20;
+  way.unhindered = plan_velocity(way.lattice, workspace, {.ticks = kEndless});
+  way.alone = way.unhindered.arrival;
+  return way.unhindered.found;
+}
+
 bool Coordinator::add_way(int robot, Path path) {
-  WayPtr way = make_way(robot, std::move(path));
-  if (!way) return false;
+  std::shared_ptr<Way> way = make_way(robot, std::move(path));
+  if (!way || !finish_way(*way)) return false;
   keep_way(robot, std::move(way));
   return true;
 }
@@ -148,7 +148,7 @@ VelocityPlan Coordinator::plan_on(int robot, const Way& way, const TeamState& st
   const int parts = static_cast<int>(obstacles_[clock].size());
   workspace.taken.clear();
   int ticks = 1;
-  bool hindered = false;
+  bool hindered = !way.unhindered.found;
   for (int other = -parts; other < robots(); ++other) {
     if (other == robot || (other >= 0 && !state[idx(other)])) continue;
     const std::span<const Mark> marks = taken(robot, way, other, state, workspace);
@@ -164,10 +164,11 @@ VelocityPlan Coordinator::plan_on(int robot, const Way& way, const TeamState& st
   for (const std::span<const Mark> marks : workspace.taken) occupied.add(marks);
   occupied.finish();
   // When all others rest the car needs no longer than alone, plus what it takes to come to a halt first.
-  int horizon = ticks + static_cast<int>(way.unhindered.tested.size()) + 4 * way.lattice.grid().levels;
+  const std::size_t alone = std::max(way.unhindered.tested.size(), way.reach.size() + way.reach.size() / 4);
+  int horizon = ticks + static_cast<int>(alone) + 4 * way.lattice.grid().levels;
   const double tick = way.lattice.grid().half_step();
   if (latest < horizon * tick) horizon = static_cast<int>(latest / tick);
-  return plan_velocity(way.lattice, workspace.velocity, {.ticks = horizon, .want_reach = false});
+  return plan_velocity(way.lattice, workspace.velocity, {.ticks = horizon});
 }
 
 std::shared_ptr<const Placement> Coordinator::placement(int robot, const WayPtr& way,

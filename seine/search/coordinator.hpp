@@ -22,9 +22,10 @@ namespace seine::search {
 /// One path a robot may take, ready for velocity planning.
 struct Way {
   SpeedLattice lattice;
-  double alone = 0.0;        ///< s, arrival if nobody else were there
+  double alone =
+      0.0;  ///< s, arrival if nobody else were there; until that is looked for, a lower bound of it
   std::vector<int> reach;    ///< per tick, furthest unit that can be reached
-  VelocityPlan unhindered;   ///< when nobody is in its way
+  VelocityPlan unhindered;   ///< when nobody is in its way; not found: not looked for yet
   std::uint32_t serial = 0;  ///< distinct for all ways and placements
 };
 
@@ -58,9 +59,11 @@ class Coordinator {
   Coordinator(const world::Scenario& scenario, const LatticeOptions& lattice, double extra_clearance);
 
   int robots() const { return static_cast<int>(cars_.size()); }
-  /// A path made ready for the robot; null when it cannot be driven alone.
-  WayPtr make_way(int robot, Path path) const;
-  /// Ways that `place` chooses from.
+  /// A path made ready for the robot, except for what it can do alone; null when it cannot be driven.
+  std::shared_ptr<Way> make_way(int robot, Path path) const;
+  /// Looks for the unhindered drive. False: there is none.
+  bool finish_way(Way& way) const;
+  /// Finished ways that `place` chooses from.
   void keep_way(int robot, WayPtr way) {
     cars_[static_cast<std::size_t>(robot)].ways.push_back(std::move(way));
   }
@@ -68,7 +71,7 @@ class Coordinator {
     auto& ways = cars_[static_cast<std::size_t>(robot)].ways;
     ways.erase(ways.begin() + index);
   }
-  /// make and keep; false when it cannot be driven alone.
+  /// make, finish and keep; false when it cannot be driven alone.
   bool add_way(int robot, Path path);
   const std::vector<WayPtr>& ways(int robot) const { return car(robot).ways; }
   /// Smallest arrival over its ways when nobody else is there.

@@ -158,6 +158,18 @@ void SpeedLattice::reach_speeds() {
   if (attainable2_[0] < start_level_ * start_level_ - 1e-9) drivable_ = false;
 }
 
+// From level k to level m over one unit takes 1 / (k + m) time steps at constant acceleration. Tests look one
+// unit ahead at most.
+std::vector<int> SpeedLattice::reach() const {
+  std::vector<int> furthest;
+  double tick = 2.0 * start_step();
+  for (int b = 0; b < units_; ++b) {
+    tick += 2.0 / (std::sqrt(attainable2_[idx(b)]) + std::sqrt(attainable2_[idx(b + 1)]));
+    while (static_cast<double>(furthest.size()) < tick) furthest.push_back(std::min(b + 1, units_));
+  }
+  return furthest;
+}
+
 void SpeedLattice::build_moves() {
   const int levels = grid_.levels;
   const auto row = [this](std::vector<std::uint64_t>& bits, int r) { return &bits[idx(r * words_)]; };

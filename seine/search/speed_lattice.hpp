@@ -76,6 +76,9 @@ class SpeedLattice {
   const std::uint64_t* moves(int level, int change) const {
     return &moves_[static_cast<std::size_t>((level * 3 + change + 1) * words_)];
   }
+  /// By tick (half time steps): the furthest unit where the car can be tested by then. It ends when the goal
+  /// can be reached: no plan takes fewer ticks than it has entries.
+  std::vector<int> reach() const;
   std::span<const Group> groups() const { return groups_; }
   std::span<const Chunk> chunks() const { return chunks_; }
   std::span<const geom::Vec2> polygon(std::size_t group) const {

@@ -38,6 +38,8 @@ class Guess {
  private:
   std::optional<Path> find_path(int robot, std::span<const Bump> bumps,
                                 std::span<const std::vector<geom::Vec2>> parked, int expansions) const;
+  std::optional<Path> find_path_from(const world::Robot& who, const geom::Pose2& start,
+                                     const PathOptions& options) const;
   TeamSearch::Sources sources() const;
   Attempt new_attempt() const;
   bool find_first_ways(Attempt& attempt);
@@ -69,14 +71,47 @@ Guess::Guess(const world::Scenario& scenario, const world::StaticMap& map, const
 std::optional<Path> Guess::find_path(int robot, std::span<const Bump> bumps,
                                      std::span<const std::vector<geom::Vec2>> parked, int expansions) const {
   const world::Robot& who = scenario_.robots[idx(robot)];
-  return planners_[idx(who.model)].plan(
-      who.start, who.goal,
-      {.max_expansions = expansions,
-       .clearance = scenario_.margins.obstacle,
-       .bumps = bumps,
-       .parked = parked,
-       .parked_clearance = scenario_.margins.robot + options_.extra_robot_clearance,
-       .deadline = options_.deadline});
+  const PathOptions options{.max_expansions = expansions,
+                            .clearance = scenario_.margins.obstacle,
+                            .bumps = bumps,
+                            .parked = parked,
+                            .parked_clearance = scenario_.margins.robot + options_.extra_robot_clearance,
+                            .deadline = options_.deadline};
+  return find_path_from(who, who.start, options);
+}
+
+// A path that begins in the gear the car is moving in: where the shortest does not, the car first brakes
+// straight on.
+std::optional<Path> Guess::find_path_from(const world::Robot& who, const geom::Pose2& start,
+                                          const PathOptions& options) const {
+  const PathPlanner& planner = planners_[idx(who.model)];
+  std::optional<Path> path = planner.plan(start, who.goal, options);
+  const int gear = who.start_speed < 0.0 ? -1 : 1;
+  if (who.start_speed == 0.0 || (path && path->points.front().gear == gear)) return path;
+
+  const vehicle::Model& model = scenario_.model_of(who);
+  constexpr double kBraking = 0.6;  // of the acceleration: room for the profile's steps and for the spline
+  const double length =
+      who.start_speed * who.start_speed / (2.0 * kBraking * model.limits.acceleration) + 0.1 * model.length();
+  constexpr int kSamples = 24;
+  Path braking;
+  std::vector<geom::Vec2> footprint(model.footprint.size());
+  for (int i = 0; i <= kSamples; ++i) {
+    const double s = length * i / kSamples;
+    const geom::Vec2 at = start.position() + (gear * s) * start.direction();
+    const geom::Pose2 pose{at.x, at.y, start.heading};
+    geom::place(model.footprint, pose, footprint);
+    if (!map_.clear(footprint, options.clearance)) return std::nullopt;
+    braking.points.push_back({s, pose, 0.0, gear});
+  }
+  path = planner.plan(braking.points.back().pose, who.goal, options);
+  if (!path) return std::nullopt;
+  const bool same_gear = path->points.front().gear == gear;
+  for (std::size_t i = same_gear ? 1 : 0; i < path->points.size(); ++i) {
+    braking.points.push_back(path->points[i]);
+    braking.points.back().s += length;
+  }
+  return braking;
 }
 
 TeamSearch::Sources Guess::sources() const {

@@ -136,14 +136,14 @@ TeamSearch::Placed TeamSearch::side_step(int robot, const TeamState& state, Plac
   constexpr double kLane = 4.0;  // car lengths
   const double s = way->lattice.s_at(conflicts.front().unit);
   const auto attempt = [&](double offset, double beside_for) {
-    const WayPtr beside =
-        way_of(robot, sources_.side_step(robot, way->lattice.path(), s, offset, beside_for));
+    std::optional<Path> path = sources_.side_step(robot, way->lattice.path(), s, offset, beside_for);
+    if (best) latest = std::min(latest, best->arrival - 1e-3);
+    if (!path || path->length() / way->lattice.grid().speed > latest) return false;
+    const std::shared_ptr<Way> beside = coordinator_.make_way(robot, std::move(*path));
     if (!beside) return false;
     ++effort_.side_steps;
-    if (best) latest = std::min(latest, best->arrival - 1e-3);
     const Placed placed = coordinator_.place_on(robot, beside, state, workspace_, latest);
-    if (!placed) return false;
-    keep(robot, beside);
+    if (!placed || !keep(robot, beside)) return false;
     best = placed;
     return true;
   };
@@ -168,10 +168,9 @@ TeamSearch::Placed TeamSearch::detour(int robot, const TeamState& state, Placed 
     bumps.push_back(
         {there * geom::Vec2{0.5 * length, 0.0}, options_.bump_lengths * length, options_.bump_weight});
     ++effort_.paths;
-    const WayPtr around = way_of(robot, sources_.search(robot, bumps, {}, options_.detour_expansions));
+    const WayPtr around = keep_path(robot, sources_.search(robot, bumps, {}, options_.detour_expansions));
     if (!around) continue;
     way = around;
-    keep(robot, way);
     if (best && way->alone >= best->arrival) continue;
     const Placed placed = coordinator_.place_on(robot, way, state, workspace_);
     if (placed && (!best || placed->arrival < best->arrival)) best = placed;
@@ -198,10 +197,9 @@ TeamSearch::Placed TeamSearch::around_the_parked(int robot, const TeamState& sta
     if (!state[idx(other)]) park(coordinator_.footprint_at(other, scenario.robots[idx(other)].start));
   }
   ++effort_.paths;
-  const WayPtr way = way_of(robot, sources_.search(robot, {}, parked, options_.parked_expansions));
+  const WayPtr way = keep_path(robot, sources_.search(robot, {}, parked, options_.parked_expansions));
   if (!way) ++futile_[idx(robot)];
   if (!way) return nullptr;
-  keep(robot, way);
   return coordinator_.place_on(robot, way, state, workspace_);
 }
 
@@ -209,15 +207,19 @@ bool TeamSearch::may_search() const {
   return sources_.search && effort_.paths < searches_;
 }
 
-WayPtr TeamSearch::way_of(int robot, const std::optional<Path>& path) const {
-  return path ? coordinator_.make_way(robot, *path) : nullptr;
-}
-
 // When there are too many, another one than the first goes.
-void TeamSearch::keep(int robot, const WayPtr& way) {
+bool TeamSearch::keep(int robot, const std::shared_ptr<Way>& way) {
+  if (!way || !coordinator_.finish_way(*way)) return false;
   const int count = static_cast<int>(coordinator_.ways(robot).size());
   if (count >= options_.most_ways) coordinator_.drop_way(robot, 1 + rng_.below(count - 1));
   coordinator_.keep_way(robot, way);
+  return true;
+}
+
+std::shared_ptr<Way> TeamSearch::keep_path(int robot, std::optional<Path> path) {
+  if (!path) return nullptr;
+  std::shared_ptr<Way> way = coordinator_.make_way(robot, std::move(*path));
+  return keep(robot, way) ? way : nullptr;
 }
 
 // Puts the group back, one after the other; false as soon as somebody cannot go, or the sum of their arrivals

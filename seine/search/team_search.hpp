@@ -77,8 +77,8 @@ class TeamSearch {
   Placed place_somehow(int robot, const TeamState& state);
   void repair(TeamState& state, const Deadline& deadline);
   void shuffle(std::vector<int>& list, int from);
-  WayPtr way_of(int robot, const std::optional<Path>& path) const;
-  void keep(int robot, const WayPtr& way);
+  bool keep(int robot, const std::shared_ptr<Way>& way);
+  std::shared_ptr<Way> keep_path(int robot, std::optional<Path> path);
   bool late(int robot, double arrival) const;
   WayPtr fastest_way(int robot) const;
   std::vector<int> group_around(int robot, const TeamState& state);

@@ -42,7 +42,6 @@ class Program {
   void advance(int layer);
   void shift_moves(int layer, int k, const std::uint64_t* middle);
   bool stays_free(int tick) const { return tick > last_taken_goal_; }
-  int furthest(int layer);
   std::vector<ProfileKnot> trace_back(int layer, std::vector<int>& tested);
   bool came_from(int layer, int k, int unit, int change);
 
@@ -100,19 +99,6 @@ void Program::shift_moves(int layer, int k, const std::uint64_t* middle) {
   }
 }
 
-int Program::furthest(int layer) {
-  int best = -1;
-  for (int k = 0; k <= levels_; ++k) {
-    const std::uint64_t* row = level(layer, k);
-    for (int w = words_ - 1; w >= 0 && (w + 1) * kWordBits > best; --w) {
-      if (row[w] == 0) continue;
-      best = std::max(best, w * kWordBits + kWordBits - 1 - __builtin_clzll(row[w]));
-      break;
-    }
-  }
-  return best;
-}
-
 VelocityPlan Program::run() {
   VelocityPlan plan;
   const int goal = lattice_.units(), first = lattice_.start_step();
@@ -122,9 +108,7 @@ VelocityPlan Program::run() {
   layers_.assign(idx(first + 1) * stride_, 0);
   if (!test(taken(0), 0) && !test(taken(first), 0) && !test(taken(2 * first), 0))
     *level(first, lattice_.start_level()) = 1;
-  if (options_.want_reach) plan.reach.assign(idx(2 * first), 0);
   alive_ = *level(first, lattice_.start_level()) != 0;
-  int front = 0;
   for (int layer = first; 2 * layer <= options_.ticks; ++layer) {
     if (test(level(layer, 0), goal) && stays_free(2 * layer)) {
       plan.found = true;
@@ -133,13 +117,11 @@ VelocityPlan Program::run() {
       plan.arrival = plan.profile.back().t;
       return plan;
     }
-    if (!alive_) break;
-    if (options_.want_reach) front = std::max(front, furthest(layer));
+    // What lies further back cannot make it in time even at top speed.
+    const int hopeless = goal - 2 * levels_ * (options_.ticks / 2 - layer);
+    low_ = std::max(low_, hopeless / kWordBits);
+    if (!alive_ || low_ > high_) break;
     advance(layer);
-    if (options_.want_reach) {
-      plan.reach.push_back(front);
-      plan.reach.push_back(std::max(front, furthest(layer + 1)));
-    }
   }
   return plan;
 }

@@ -50,8 +50,7 @@ struct VelocityPlan {
   std::vector<ProfileKnot> profile;  ///< when found; consecutive knots of equal acceleration are merged
   double arrival = 0.0;              ///< s, when found
   std::vector<int>
-      tested;              ///< when found: per tick, the unit the car is tested at, then at its goal for good
-  std::vector<int> reach;  ///< per tick, the furthest unit that can be reached (only when asked for)
+      tested;  ///< when found: per tick, the unit the car is tested at, then at its goal for good
 };
 
 /// Memory that is used again from call to call.
@@ -63,7 +62,6 @@ struct VelocityWorkspace {
 struct VelocityOptions {
   int ticks =
       0;  ///< horizon, half time steps; when the row of a later tick is asked for, the last one is used
-  bool want_reach = false;
 };
 
 /// Exact dynamic programming over (way, speed, time): all states that can be reached at a time are one bitset
