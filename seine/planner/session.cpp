@@ -13,6 +13,7 @@
 namespace seine::planner {
 namespace {
 
+constexpr double kGuessShare = 0.7;  // of the time that is left
 constexpr int kPolishRounds = 8;
 constexpr int kStuckRounds = 3, kHopelessRounds = 6;
 constexpr int kAttempts = 8;
@@ -44,8 +45,10 @@ PlanResult Session::run() {
     const bool gently = attempt % 2 == 1;
     if (!gently && !guess(static_cast<std::uint64_t>(attempt / 2))) continue;
     if (!guess_.complete) continue;
+    if (deadline_.expired()) break;
     prepare();
     optimise(gently);
+    if (deadline_.expired()) break;
     polish();
     if (result_.certified) break;
     ++result_.repairs;
@@ -57,7 +60,8 @@ bool Session::guess(std::uint64_t attempt) {
   const Stopwatch watch;
   report("guess", 0.0);
   search::GuessOptions options;
-  options.deadline = deadline_;
+  // Without time left to optimise a guess is worth nothing.
+  options.deadline = deadline_.within(kGuessShare * deadline_.remaining());
   options.threads = workers_.count();
   options.seed = options_.seed + attempt;
   options.extra_robot_clearance = 0.01 * static_cast<double>(attempt) * scenario_.models.front().length();
@@ -134,7 +138,7 @@ void Session::solve_groups(const std::vector<Group>& groups, Start start) {
   });
   for (const Group& group : groups)
     result_.iterations += evaluations_[static_cast<std::size_t>(group.front())];
-  place_bodies();
+  if (!deadline_.expired()) place_bodies();
 }
 
 trajopt::Task Session::task_for(const Group& group) const {
@@ -157,6 +161,7 @@ trajopt::Task Session::task_for(const Group& group) const {
 }
 
 void Session::solve(const Group& group, Start start, Workers& workers) {
+  if (deadline_.expired()) return;
   trajopt::JointProblem problem(task_for(group), settings_, workers);
   std::vector<double> x = problem.initial();
   const auto slice = [&](std::size_t i) {

@@ -138,7 +138,7 @@ bool Guess::find_first_ways(Attempt& attempt) {
   const int count = attempt.coordinator->robots();
   Workers workers(std::max(1, options_.threads));
   workers.run(count, [&](int robot) {
-    if (attempt.coordinator->fixed(robot)) return;
+    if (attempt.coordinator->fixed(robot) || options_.deadline.expired()) return;
     constexpr int kPatience = 20000;
     if (std::optional<Path> path = find_path(robot, {}, {}, kPatience))
       attempt.coordinator->add_way(robot, std::move(*path));
@@ -222,6 +222,7 @@ Attempt Guess::by_ring(const Attempt& straight, const Crossing& crossing, double
   Attempt attempt = new_attempt();
   for (int i = 0; i < straight.coordinator->robots(); ++i) {
     if (attempt.coordinator->fixed(i)) continue;
+    if (options_.deadline.expired()) return attempt;
     std::optional<Path> path;
     if (std::binary_search(crossing.robots.begin(), crossing.robots.end(), i))
       path = path_by_ring(scenario_, map_, i, crossing.center, radius);

@@ -41,8 +41,9 @@ struct TeamGuess {
   TeamSearch::Effort effort;           ///< of the coordination
 };
 
-/// The coordinated guess for the whole team: who drives where, when, and who goes first (docs/front-end.md).
-/// Anytime after the first complete pass; deterministic for the same seed when the deadline is not reached.
+/// The coordinated guess for the whole team: who drives where, when, and who goes first
+/// (docs/front-end-coordination.md). Anytime after the first complete pass; deterministic for the same seed
+/// when the deadline is not reached.
 TeamGuess guess_team(const world::Scenario& scenario, const world::StaticMap& map,
                      const GuessOptions& options);
 

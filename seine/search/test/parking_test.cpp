@@ -4,8 +4,8 @@
 #include <sstream>
 #include <string>
 
-#include "path_check.hpp"
 #include "seine/base/deadline.hpp"
+#include "seine/search/test/path_check.hpp"
 
 namespace seine::search {
 namespace {

@@ -5,8 +5,8 @@
 #include <numbers>
 #include <thread>
 
-#include "path_check.hpp"
 #include "seine/base/rng.hpp"
+#include "seine/search/test/path_check.hpp"
 #include "seine/world/families.hpp"
 
 namespace seine::search {

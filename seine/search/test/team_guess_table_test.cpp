@@ -7,8 +7,8 @@
 #include <ctime>
 
 #include "seine/search/team_guess.hpp"
+#include "seine/search/test/team_check.hpp"
 #include "seine/world/families.hpp"
-#include "team_check.hpp"
 
 namespace seine::search {
 namespace {

@@ -5,8 +5,8 @@
 #include <numeric>
 
 #include "seine/search/retime.hpp"
+#include "seine/search/test/team_check.hpp"
 #include "seine/world/families.hpp"
-#include "team_check.hpp"
 
 namespace seine::search {
 namespace {
