@@ -143,6 +143,7 @@ bool Guess::find_first_ways(Attempt& attempt) {
     if (std::optional<Path> path = find_path(robot, {}, {}, kPatience))
       attempt.coordinator->add_way(robot, std::move(*path));
   });
+  const char* none = options_.deadline.expired() ? "no time to find a path: " : "no path even alone: ";
   for (int i = 0; i < count; ++i)
     if (!attempt.coordinator->fixed(i) && attempt.coordinator->ways(i).empty())
       guess_.reason +=
