@@ -14,6 +14,7 @@ namespace seine::planner {
 namespace {
 
 constexpr double kGuessShare = 0.7;  // of the time that is left
+constexpr int kFailedGuesses = 2;    // a team that two guesses could not solve is given up
 constexpr int kPolishRounds = 8;
 constexpr int kStuckRounds = 3, kHopelessRounds = 6;
 constexpr int kAttempts = 8;
@@ -40,10 +41,12 @@ PlanResult Session::run() {
         complaints.size() > 1 ? " (and " + std::to_string(complaints.size() - 1) + " more)" : "";
     throw InputError(scenario_.name + ": " + complaints.front() + more);
   }
+  int failed_guesses = 0;
   for (int attempt = 0; attempt < kAttempts && !deadline_.expired(); ++attempt) {
     // Every guess gets two tries: a free one and a gentle one.
     const bool gently = attempt % 2 == 1;
-    if (!gently && !guess(static_cast<std::uint64_t>(attempt / 2))) continue;
+    if (!gently && !guess(static_cast<std::uint64_t>(attempt / 2)) && ++failed_guesses == kFailedGuesses)
+      break;
     if (!guess_.complete) continue;
     if (deadline_.expired()) break;
     prepare();
@@ -67,7 +70,9 @@ bool Session::guess(std::uint64_t attempt) {
   options.extra_robot_clearance = 0.01 * static_cast<double>(attempt) * scenario_.models.front().length();
   guess_ = search::guess_team(scenario_, map_, options);
   result_.times.guess += watch.seconds();
-  if (!guess_.complete) result_.reason = guess_.reason;
+  if (!guess_.complete)
+    result_.reason =
+        options.deadline.expired() ? "no guess for the whole team before the deadline" : guess_.reason;
   return guess_.complete;
 }
 
@@ -282,7 +287,7 @@ PlanResult Session::finish() {
   if (result_.certified) {
     result_.reason.clear();
     result_.quality = measure(result_.plan);
-  } else if (deadline_.expired()) {
+  } else if (deadline_.expired() && guess_.complete) {
     result_.reason = "no certified plan before the deadline";
   } else if (!result_.certificate.violations.empty()) {
     result_.reason = result_.certificate.violations.front().text;

@@ -1,0 +1,91 @@
+// The optimiser's inner loops: the time of one item is one sample with its gradient, or one close pair-sample
+// with its gradient.
+#include <benchmark/benchmark.h>
+
+#include <vector>
+
+#include "seine/base/rng.hpp"
+#include "seine/constraint/inter_vehicle.hpp"
+#include "seine/trajopt/kernels.hpp"
+
+namespace {
+
+using namespace seine;
+
+constexpr int kPieces = 8;
+
+// A gently bent curve at nominal length 1 a piece, coefficient-major.
+struct Curve {
+  std::vector<double> cx, cy, gcx, gcy;
+  Curve() : cx(6 * kPieces), cy(6 * kPieces), gcx(6 * kPieces), gcy(6 * kPieces) {
+    Rng rng(1);
+    for (int j = 0; j < kPieces; ++j) {
+      cx[static_cast<std::size_t>(j)] = j;
+      cx[static_cast<std::size_t>(kPieces + j)] = 1.0;
+      for (int k = 2; k < 6; ++k) cy[static_cast<std::size_t>(k * kPieces + j)] = 0.2 * rng.normal();
+    }
+  }
+};
+
+void curve_sample(benchmark::State& state) {
+  Curve curve;
+  const trajopt::CurveWeights weights{0.3, 1.0, 0.03, 1.0, 0.1};
+  trajopt::CurveLanes lanes;
+  double g_length = 0.0;
+  for (auto _ : state)
+    for (std::size_t j = 0; j < kPieces; ++j) {
+      benchmark::DoNotOptimize(
+          trajopt::curve_piece(&curve.cx[j], &curve.cy[j], kPieces, weights, lanes, g_length));
+      trajopt::curve_piece_adjoint(lanes, &curve.gcx[j], &curve.gcy[j], kPieces);
+    }
+  state.counters["per_sample"] =
+      benchmark::Counter(static_cast<double>(kPieces * trajopt::kCurveLanes),
+                         benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+BENCHMARK(curve_sample)->Repetitions(5)->ReportAggregatesOnly();
+
+void time_sample(benchmark::State& state) {
+  Curve curve;
+  std::vector<double> cu(6 * kPieces), gcu(6 * kPieces);
+  for (int j = 0; j < kPieces; ++j) {
+    cu[static_cast<std::size_t>(j)] = j;
+    cu[static_cast<std::size_t>(kPieces + j)] = 0.9;
+    cu[static_cast<std::size_t>(2 * kPieces + j)] = 0.1;
+  }
+  const trajopt::CurveView view{curve.cx.data(),  curve.cy.data(), curve.gcx.data(),
+                                curve.gcy.data(), kPieces,         kPieces};
+  const trajopt::TimeWeights weights{1.0, 0.8,  0.1,
+                                     0.1, 0.03, 1.0};  // limits low enough that every term is active
+  double g_duration = 0.0;
+  for (auto _ : state)
+    for (std::size_t j = 0; j < kPieces; ++j)
+      benchmark::DoNotOptimize(trajopt::time_piece(&cu[j], &gcu[j], kPieces, view, weights, g_duration));
+  state.counters["per_sample"] =
+      benchmark::Counter(static_cast<double>(kPieces * trajopt::kTimeLanes),
+                         benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+BENCHMARK(time_sample)->Repetitions(5)->ReportAggregatesOnly();
+
+void pair_sample(benchmark::State& state) {
+  constexpr std::size_t kPairs = 256;
+  Rng rng(2);
+  std::vector<constraint::OrientedBox> boxes;
+  for (std::size_t i = 0; i < 2 * kPairs; ++i)
+    boxes.push_back({{rng.uniform(0.0, 1.0) + 0.8 * static_cast<double>(i % 2), rng.uniform(0.0, 1.0)},
+                     geom::unit(rng.uniform(-3.0, 3.0)),
+                     0.33,
+                     0.5,
+                     0.33});
+  constraint::PairGradient gradient;
+  for (auto _ : state)
+    for (std::size_t i = 0; i < kPairs; ++i) {
+      benchmark::DoNotOptimize(constraint::inter_vehicle(boxes[2 * i], boxes[2 * i + 1], gradient));
+      benchmark::DoNotOptimize(gradient);
+    }
+  state.counters["per_pair"] =
+      benchmark::Counter(static_cast<double>(kPairs),
+                         benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+BENCHMARK(pair_sample)->Repetitions(5)->ReportAggregatesOnly();
+
+}  // namespace
