@@ -146,8 +146,7 @@ bool Guess::find_first_ways(Attempt& attempt) {
   const char* none = options_.deadline.expired() ? "no time to find a path: " : "no path even alone: ";
   for (int i = 0; i < count; ++i)
     if (!attempt.coordinator->fixed(i) && attempt.coordinator->ways(i).empty())
-      guess_.reason +=
-          (guess_.reason.empty() ? "no path even alone: " : ", ") + scenario_.robots[idx(i)].name;
+      guess_.reason += (guess_.reason.empty() ? none : ", ") + scenario_.robots[idx(i)].name;
   return guess_.reason.empty();
 }
 
