@@ -40,20 +40,29 @@ struct NearestCorner {
 };
 
 inline NearestCorner nearest_corner(const BoxFrame& owner, const BoxFrame& other) {
-  NearestCorner best;
+  const auto outside = [](double x, double half) {
+    const double beyond = std::abs(x) - half;
+    return beyond > 0.0 ? std::copysign(beyond, x) : 0.0;
+  };
+  // In the other box's axes: the middle, and half the owner's length and width.
   const geom::Vec2 delta = owner.middle - other.middle;
-  const geom::Vec2 l = owner.half_length * owner.along, w = owner.half_width * owner.across;
+  const double mx = geom::dot(delta, other.along), my = geom::dot(delta, other.across);
+  const double c = geom::dot(owner.along, other.along), s = geom::dot(owner.along, other.across);
+  const double lx = owner.half_length * c, ly = owner.half_length * s;
+  const double wx = -owner.half_width * s, wy = owner.half_width * c;
+  NearestCorner best;
+  double best_x = 0.0, best_y = 0.0;
   for (const double sl : {-1.0, 1.0})
     for (const double sw : {-1.0, 1.0}) {
-      const geom::Vec2 p = delta + sl * l + sw * w;
-      const double x = geom::dot(p, other.along), y = geom::dot(p, other.across);
-      const double dx = x > other.half_length ? x - other.half_length
-                                              : (x < -other.half_length ? x + other.half_length : 0.0);
-      const double dy =
-          y > other.half_width ? y - other.half_width : (y < -other.half_width ? y + other.half_width : 0.0);
+      const double dx = outside(mx + sl * lx + sw * wx, other.half_length);
+      const double dy = outside(my + sl * ly + sw * wy, other.half_width);
       const double squared = dx * dx + dy * dy;
-      if (squared < best.squared) best = {squared, {sl, sw}, dx * other.along + dy * other.across};
+      if (squared >= best.squared) continue;
+      best.squared = squared;
+      best.corner = {sl, sw};
+      best_x = dx, best_y = dy;
     }
+  best.normal = best_x * other.along + best_y * other.across;
   return best;
 }
 
