@@ -150,7 +150,7 @@ YamlMap YamlValue::read_map(const std::initializer_list<std::string_view>* keys)
   std::unordered_set<std::string> seen;
   for (const auto& entry : node_) {
     const YamlValue key(entry.first, file_, joined("a key of ", what_));
-    const std::string name = key.scalar("a text");
+    const std::string& name = key.scalar("a text");
     if (keys != nullptr && std::find(keys->begin(), keys->end(), name) == keys->end()) {
       throw complaint(*file_, entry.first.Mark().line + 1,
                       joined("unknown key '", excerpt(name), "' in ", what_, did_you_mean(name, {*keys})));

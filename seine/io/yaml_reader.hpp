@@ -53,8 +53,8 @@ class YamlValue {
 
  private:
   friend class YamlMap;
-  YamlValue(YAML::Node node, std::shared_ptr<const std::string> file, std::string what)
-      : node_(std::move(node)), file_(std::move(file)), what_(std::move(what)) {}
+  YamlValue(const YAML::Node& node, std::shared_ptr<const std::string> file, std::string what)
+      : node_(node), file_(std::move(file)), what_(std::move(what)) {}
   YamlMap read_map(const std::initializer_list<std::string_view>* keys) const;
   const std::string& scalar(const char* expected) const;
   std::string found() const;

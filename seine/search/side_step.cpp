@@ -10,9 +10,8 @@
 namespace seine::search {
 namespace {
 
-// In car lengths: half of the way beside the path, and the way to get there and back. Shorter transitions
+// In car lengths: the way to get beside the path and back. Shorter transitions
 // turn tighter and slow the car down, longer ones seldom find room.
-constexpr double kBeside = 1.0;
 constexpr double kTransition = 3.0;
 constexpr double kShortest = 1.2;
 constexpr double kRadius =

@@ -106,7 +106,7 @@ class SpeedLattice {
   bool drivable_ = true;
   bool stub_ = false;
   int units_ = 0, words_ = 0, start_level_ = 0;
-  double start_speed_ = 0.0, start_s_ = 0.0;
+  double start_speed_ = 0.0;
   std::vector<Stretch> stretches_;
   std::vector<double> s_;            // m, per unit
   std::vector<double> curvature_;    // 1/m, per unit, largest within one unit
