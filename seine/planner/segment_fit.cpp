@@ -24,6 +24,9 @@ struct Stretch {
 // Speeds below this share of the top speed count as standing.
 constexpr double kStanding = 1e-6;
 
+// Lengths that differ by less than this (m) are one place.
+constexpr double kSameLength = 1e-9;
+
 // Lengths at which the gear changes.
 std::vector<std::pair<double, int>> gear_changes(const Path& path) {
   std::vector<std::pair<double, int>> changes{{0.0, path.points.front().gear}};
@@ -80,13 +83,6 @@ std::vector<Stretch> stretches_of(const TimedPath& guess, const vehicle::Model& 
   return stretches;
 }
 
-// When the car first has driven s.
-double time_at(const TimedPath& guess, double s) {
-  for (std::size_t i = 0; i < guess.profile.size(); ++i)
-    if (guess.profile[i].s >= s - 1e-9) return guess.profile[i].t;
-  return guess.arrival();
-}
-
 double curvature_at(const Path& path, double s) {
   const auto next = std::upper_bound(path.points.begin(), path.points.end(), s,
                                      [](double value, const PathPoint& point) { return value < point.s; });
@@ -113,49 +109,58 @@ Turning turning_of(const Path& path, const Stretch& stretch, double wheelbase) {
   return turning;
 }
 
+// A maximal stretch of a path in one gear: points[first] … points[last].
+struct Run {
+  std::size_t first, last;
+};
+
+std::vector<Run> runs_of(const Path& path) {
+  std::vector<Run> runs{{0, 0}};
+  for (std::size_t i = 1; i < path.points.size(); ++i) {
+    if (path.points[i].gear != path.points[i - 1].gear) runs.push_back({i, i});
+    runs.back().last = i;
+  }
+  return runs;
+}
+
+// When the car leaves length s for good, and when it first gets there.
+double departure(const TimedPath& guess, double s) {
+  double t = 0.0;
+  for (const ProfileKnot& knot : guess.profile)
+    if (knot.s <= s + kSameLength) t = knot.t;
+  return t;
+}
+
+double arrival(const TimedPath& guess, double s) {
+  for (const ProfileKnot& knot : guess.profile)
+    if (knot.s >= s - kSameLength) return knot.t;
+  return guess.arrival();
+}
+
 // Stretches of a few centimetres come from exact Reeds-Shepp ends. Left out, their neighbours (of one gear)
 // become one stretch, and the spline takes up the difference.
 TimedPath without_tiny_stretches(const TimedPath& guess, double shortest) {
-  const auto gears = gear_changes(guess.path);
+  const std::vector<PathPoint>& points = guess.path.points;
   TimedPath result;
-  double cut_s = 0.0, cut_t = 0.0;
-  std::vector<std::pair<double, double>> cuts;  // [from, to] of s
-  for (std::size_t g = 0; g < gears.size(); ++g) {
-    const double to = g + 1 < gears.size() ? gears[g + 1].first : guess.path.length();
-    if (to - gears[g].first < shortest) cuts.emplace_back(gears[g].first, to);
+  double cut_length = 0.0, cut_time = 0.0;
+  for (const Run& run : runs_of(guess.path)) {
+    const double from = points[run.first].s, to = points[run.last].s;
+    if (to - from < shortest) {
+      cut_length += to - from;
+      cut_time += arrival(guess, to) - departure(guess, from);
+      continue;
+    }
+    for (std::size_t i = run.first; i <= run.last; ++i) {
+      result.path.points.push_back(points[i]);
+      result.path.points.back().s -= cut_length;
+    }
+    for (const ProfileKnot& knot : guess.profile) {
+      if (knot.s < from - kSameLength || knot.s > to + kSameLength) continue;
+      const ProfileKnot moved{knot.t - cut_time, knot.s - cut_length, knot.v};
+      if (result.profile.empty() || moved.t > result.profile.back().t) result.profile.push_back(moved);
+    }
   }
-  if (cuts.empty() || cuts.size() == gears.size()) return guess;
-  const auto cut_at = [&](double s) {
-    for (const auto& [from, to] : cuts)
-      if (s > from + 1e-9 && s < to - 1e-9) return true;
-    return false;
-  };
-  const auto removed_before = [&](double s) {
-    double sum = 0.0;
-    for (const auto& [from, to] : cuts)
-      if (s >= to - 1e-9) sum += to - from;
-    return sum;
-  };
-  for (const PathPoint& point : guess.path.points) {
-    if (cut_at(point.s)) continue;
-    bool tiny = false;  // the two end points that carry the tiny stretch's own gear
-    for (const auto& [from, to] : cuts)
-      for (const auto& [s, gear] : gears)
-        tiny = tiny || (s == from && gear == point.gear && point.s >= from - 1e-9 && point.s <= to + 1e-9);
-    if (tiny) continue;
-    result.path.points.push_back(point);
-    result.path.points.back().s -= removed_before(point.s);
-  }
-  for (const ProfileKnot& knot : guess.profile) {
-    if (cut_at(knot.s)) continue;
-    cut_s = removed_before(knot.s);
-    cut_t = 0.0;
-    for (const auto& [from, to] : cuts)
-      if (knot.s >= to - 1e-9) cut_t += time_at(guess, to) - time_at(guess, from);
-    const ProfileKnot moved{knot.t - cut_t, knot.s - cut_s, knot.v};
-    if (result.profile.empty() || moved.t > result.profile.back().t + 1e-9) result.profile.push_back(moved);
-  }
-  return result.path.points.size() > 2 && result.profile.size() > 1 ? result : guess;
+  return cut_length == 0.0 || result.profile.size() < 2 ? guess : result;
 }
 
 trajopt::SegmentGuess fit_stretch(const TimedPath& guess, const Stretch& stretch, const vehicle::Model& model,
