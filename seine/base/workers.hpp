@@ -41,13 +41,12 @@ class Workers {
   void loop();
 
   std::vector<std::thread> threads_;
-  // The round number (high bits) and the next free index (low bits) share one word, so that a late thread can
-  // never take an index of a round it has not seen begin.
-  std::atomic<std::uint64_t> next_{0};
+  // The round's number, its count and its next free index share one word, so that a late thread can never
+  // take an index of a round it has not seen begin, nor mix the count of one round with the index of another.
+  std::atomic<std::uint64_t> word_{0};
   std::atomic<int> unfinished_{0};
   std::atomic<std::uint64_t> round_{0};
   std::atomic<bool> stop_{false};
-  std::atomic<int> count_{0};
   std::atomic<void*> context_{nullptr};
   std::atomic<Call> call_{nullptr};
   std::mutex mutex_;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <vector>
 
 namespace seine {
@@ -16,6 +17,23 @@ TEST(Workers, CallEveryIndexOnceInEveryRound) {
       workers.run(count, [&](int i) { ++calls[static_cast<std::size_t>(i)]; });
       for (const int c : calls) ASSERT_EQ(c, 1) << threads << " threads, round " << round;
     }
+  }
+}
+
+// Rounds of changing size, back to back: a thread that is late in a short round must not take an index of the
+// next, longer one with the short round's function.
+TEST(Workers, NeverMixTwoRounds) {
+  Workers workers(4);
+  for (int round = 0; round < 200000; ++round) {
+    std::atomic<int> calls{0};
+    const int count = 2 + round % 3 * 7;
+    workers.run(count, [&](int i) {
+      if (i < count)
+        ++calls;
+      else
+        ADD_FAILURE() << "index " << i << " of " << count;
+    });
+    ASSERT_EQ(calls.load(), count) << "round " << round;
   }
 }
 
