@@ -66,16 +66,20 @@ void time_sample(benchmark::State& state) {
 }
 BENCHMARK(time_sample)->Repetitions(5)->ReportAggregatesOnly();
 
+// Cars that pass each other, tick by tick, as the optimiser meets them.
 void pair_sample(benchmark::State& state) {
-  constexpr std::size_t kPairs = 256;
+  constexpr std::size_t kEncounters = 16, kTicks = 16, kPairs = kEncounters * kTicks;
   Rng rng(2);
   std::vector<constraint::OrientedBox> boxes;
-  for (std::size_t i = 0; i < 2 * kPairs; ++i)
-    boxes.push_back({{rng.uniform(0.0, 1.0) + 0.8 * static_cast<double>(i % 2), rng.uniform(0.0, 1.0)},
-                     geom::unit(rng.uniform(-3.0, 3.0)),
-                     0.33,
-                     0.5,
-                     0.33});
+  for (std::size_t encounter = 0; encounter < kEncounters; ++encounter) {
+    const double heading = rng.uniform(-3.0, 3.0), beside = rng.uniform(-1.2, 1.2);
+    for (std::size_t tick = 0; tick < kTicks; ++tick) {
+      const double along = 0.0667 * (static_cast<double>(tick) - 0.5 * kTicks);
+      const geom::Vec2 d = geom::unit(heading);
+      boxes.push_back({{along, 0.0}, {1.0, 0.0}, 0.33, 0.5, 0.33});
+      boxes.push_back({geom::Vec2{0.0, beside} + along * d, d, 0.33, 0.5, 0.33});
+    }
+  }
   constraint::PairGradient gradient;
   for (auto _ : state)
     for (std::size_t i = 0; i < kPairs; ++i) {

@@ -69,7 +69,10 @@ inline NearestCorner nearest_corner(const BoxFrame& owner, const BoxFrame& other
 /// Penetrating boxes: the letter's signed distance of two convex polygons [Pei24], for rectangles in closed
 /// form: the largest (least negative) gap over the four face normals, along a face normal e of a  |δ·e| − h_e
 /// − (H_b |e·d_b| + W_b |e·n_b|),  δ = middle of b − middle of a.
-inline double separating_gap(const OrientedBox& a, const OrientedBox& b, PairGradient& gradient) {
+/// @param face_to_corner receives whether the other box's nearest corner lies over the face, so that the gap
+/// is the Euclidean distance
+inline double separating_gap(const OrientedBox& a, const OrientedBox& b, PairGradient& gradient,
+                             bool& face_to_corner) {
   using geom::cross, geom::dot, geom::Vec2;
   const Vec2 da = a.direction, db = b.direction, na{-da.y, da.x}, nb{-db.y, db.x};
   const Vec2 delta = (b.position + b.offset * db) - (a.position + a.offset * da);
@@ -100,6 +103,15 @@ inline double separating_gap(const OrientedBox& a, const OrientedBox& b, PairGra
   gradient.direction_a = -a.offset * axis + g_c * db + g_s * Vec2{db.y, -db.x};
   gradient.direction_b = b.offset * axis + g_c * da + g_s * Vec2{-da.y, da.x};
   (of_a ? gradient.direction_a : gradient.direction_b) += turn;
+
+  // The corner of the other box that reaches furthest towards the face, along the face's tangent.
+  const OrientedBox& owner = of_a ? a : b;
+  const Vec2 towards = of_a ? -axis : axis, tangent{-towards.y, towards.x};
+  const Vec2 along = of_a ? db : da, across = of_a ? nb : na;
+  const Vec2 reach = std::copysign(other.half_length, dot(along, towards)) * along +
+                     std::copysign(other.half_width, dot(across, towards)) * across;
+  const Vec2 corner = of_a ? delta + reach : reach - delta;  // from the middle of the face's owner
+  face_to_corner = std::abs(dot(corner, tangent)) <= (lengthwise ? owner.half_width : owner.half_length);
   return gap[face];
 }
 
@@ -108,8 +120,9 @@ inline double separating_gap(const OrientedBox& a, const OrientedBox& b, PairGra
 /// kinked where the nearest features change, which the line search copes with. The separating gap alone would
 /// be a lower bound that dips sharply, and between samples unseen, when corners pass each other.
 inline double inter_vehicle(const OrientedBox& a, const OrientedBox& b, PairGradient& gradient) {
-  const double gap = separating_gap(a, b, gradient);
-  if (gap <= 0.0) return gap;
+  bool face_to_corner;
+  const double gap = separating_gap(a, b, gradient, face_to_corner);
+  if (gap <= 0.0 || face_to_corner) return gap;
   const BoxFrame fa = frame_of(a), fb = frame_of(b);
   const NearestCorner of_a = nearest_corner(fa, fb), of_b = nearest_corner(fb, fa);
   const bool corner_of_a = of_a.squared < of_b.squared;
