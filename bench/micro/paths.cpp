@@ -36,7 +36,7 @@ void paths(benchmark::State& state, world::Family family, bool warm) {
   for (auto _ : state) {
     const search::PathPlanner fresh(map, scenario.models[0]);
     for (const auto& robot : scenario.robots) {
-      benchmark::DoNotOptimize((warm ? known : fresh).plan(robot.start, robot.goal, options));
+      benchmark::DoNotOptimize((warm ? known : fresh).plan(robot.start, *robot.goal, options));
     }
   }
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(scenario.robots.size()));

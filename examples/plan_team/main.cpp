@@ -19,8 +19,10 @@ seine::world::Scenario two_cars_and_a_pillar() {
   task.models = {car};
   task.obstacles.push_back({.name = "pillar", .shape = seine::world::Circle{{0.0, 0.0}, 0.5}, .motion = {}});
   // Headings: +x is 0, counter-clockwise. The second car faces the first.
-  task.robots.push_back({.name = "left", .start = {-4.0, 0.0, 0.0}, .goal = {4.0, 0.0, 0.0}});
-  task.robots.push_back({.name = "right", .start = {4.0, 0.0, 3.1416}, .goal = {-4.0, 0.0, 3.1416}});
+  task.robots.push_back(
+      {.name = "left", .start = {-4.0, 0.0, 0.0}, .goal = seine::geom::Pose2{4.0, 0.0, 0.0}});
+  task.robots.push_back(
+      {.name = "right", .start = {4.0, 0.0, 3.1416}, .goal = seine::geom::Pose2{-4.0, 0.0, 3.1416}});
   return task;
 }
 

@@ -104,8 +104,10 @@ class FormCheck {
 
   void check_goal(double arrival) {
     const State end = traj::evaluate(segments_.back(), segments_.back().duration());
-    check_pose(Kind::goal, arrival, end, asked_.goal, "the distance (m) from its goal",
-               "the angle (rad) to its goal heading");
+    if (asked_.goal) {
+      check_pose(Kind::goal, arrival, end, *asked_.goal, "the distance (m) from its goal",
+                 "the angle (rad) to its goal heading");
+    }
     require(Kind::rest, arrival, std::abs(end.speed), tolerance::kSpeed, "the speed (m/s) on arrival");
   }
 
@@ -180,7 +182,7 @@ class FormCheck {
     const auto slope = [w](const Quintic& c) {
       return c[1] + w * (2.0 * c[2] + w * (3.0 * c[3] + w * (4.0 * c[4] + w * 5.0 * c[5])));
     };
-    return geom::norm({slope(segment.curve[i][0]), slope(segment.curve[i][1])});
+    return geom::norm(geom::Vec2{slope(segment.curve[i][0]), slope(segment.curve[i][1])});
   }
 
   /// About when u(t) passes `u` (for messages).

@@ -76,7 +76,7 @@ Bends Stretch::bends(double w0, double w1, double wheelbase, double reach) const
 
   const auto dx = derivatives(*x, u), dy = derivatives(*y, u);
   std::array<double, 6> length{};
-  for (std::size_t k = 1; k < 6; ++k) length[k] = geom::norm({dx[k], dy[k]});
+  for (std::size_t k = 1; k < 6; ++k) length[k] = geom::norm(geom::Vec2{dx[k], dy[k]});
   const auto a = magnitudes_within(length, b[0]);  // a[k] ≥ |p^(k)|
 
   Bends bends;

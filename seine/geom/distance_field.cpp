@@ -239,7 +239,7 @@ DistanceField::Place DistanceField::locate(Vec2 p) const {
   const int row = std::max(std::min(static_cast<int>(cv), height - 2), 0);
   const bool inside = u == cu && v == cv;
   return {static_cast<std::size_t>(row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(column),
-          cu - column, cv - row, inside ? 0.0 : cell * norm({u - cu, v - cv})};
+          cu - column, cv - row, inside ? 0.0 : cell * norm(Vec2{u - cu, v - cv})};
 }
 
 double DistanceField::interpolate(const Place& at) const {

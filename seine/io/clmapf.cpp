@@ -23,7 +23,7 @@ geom::Box bounds_of(const world::Scenario& scenario, geom::Vec2 size) {
   geom::Box bounds{{0.0, 0.0}, size};
   const geom::Box axle_bounds = bounds;
   for (const world::Robot& robot : scenario.robots) {
-    for (const geom::Pose2& pose : {robot.start, robot.goal}) {
+    for (const geom::Pose2& pose : {robot.start, *robot.goal}) {
       if (!axle_bounds.contains(pose.position())) continue;
       for (const geom::Vec2 corner : scenario.model_of(robot).footprint) bounds.include(pose * corner);
     }

@@ -83,9 +83,10 @@ std::string robot_text(const world::Scenario& scenario, const world::Robot& robo
   const std::string& model = scenario.model_of(robot).name;
   const std::string speed =
       robot.start_speed != 0.0 ? joined(", speed: ", number_text(robot.start_speed)) : "";
+  const std::string goal = robot.goal ? joined(", goal: {", pose_text(*robot.goal), "}") : "";
   return joined("  - {name: ", yaml_scalar(robot.name),
                 (model != "default" ? joined(", model: ", yaml_scalar(model)) : ""), ", start: {",
-                pose_text(robot.start), speed, "}, goal: {", pose_text(robot.goal), "}}\n");
+                pose_text(robot.start), speed, "}", goal, "}\n");
 }
 
 }  // namespace

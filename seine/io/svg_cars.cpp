@@ -157,8 +157,9 @@ std::string end_layer(const world::Scenario& scenario, const SvgView& view) {
     starts += car(robot.model, robot.start, view, line);
     starts +=
         joined("<g transform=\"", placement(robot.start, view), "\"", line, ">", tick(model, view), "</g>\n");
-    goals += car(robot.model, robot.goal, view, joined(line, " fill=\"", colour, "\""));
-    goals += joined("<g transform=\"", placement(robot.goal, view), "\" stroke=\"#fff\">", tick(model, view),
+    if (!robot.goal) continue;
+    goals += car(robot.model, *robot.goal, view, joined(line, " fill=\"", colour, "\""));
+    goals += joined("<g transform=\"", placement(*robot.goal, view), "\" stroke=\"#fff\">", tick(model, view),
                     "</g>\n");
   }
   return joined(goals, "</g>\n", starts, "</g>\n");

@@ -20,7 +20,7 @@ geom::Box used_part(const world::Scenario& scenario, const traj::TeamTrajectory*
     const world::Robot& robot = scenario.robots[k];
     const vehicle::Model& model = scenario.model_of(robot);
     include_car(model, robot.start, box);
-    include_car(model, robot.goal, box);
+    if (robot.goal) include_car(model, *robot.goal, box);
     if (plan == nullptr || k >= plan->robots.size() || plan->robots[k].segments.empty()) continue;
     const double arrival = plan->robots[k].arrival();
     for (int i = 0; i <= kSamples; ++i)

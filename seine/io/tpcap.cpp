@@ -120,11 +120,11 @@ world::Scenario read_tpcap(std::string_view text, const std::string& file, const
   scenario.margins = {0.0, 0.0};
   world::Robot robot{.name = "car0", .start = read_pose(numbers), .goal = read_pose(numbers)};
   const geom::Vec2 origin = origin_near(robot.start.position());
-  for (geom::Pose2* pose : {&robot.start, &robot.goal}) pose->x -= origin.x, pose->y -= origin.y;
-  if (geom::norm(robot.goal.position() - robot.start.position()) > kFar)
+  for (geom::Pose2* pose : {&robot.start, &*robot.goal}) pose->x -= origin.x, pose->y -= origin.y;
+  if (geom::norm(robot.goal->position() - robot.start.position()) > kFar)
     numbers.fail("ends a goal too far from the start");
   scenario.bounds.include(robot.start.position());
-  scenario.bounds.include(robot.goal.position());
+  scenario.bounds.include(robot.goal->position());
   scenario.bounds = scenario.bounds.inflated(kWorkspaceMargin);
   scenario.robots.push_back(std::move(robot));
   read_obstacles(numbers, file, origin, scenario);

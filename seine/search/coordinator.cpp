@@ -48,7 +48,7 @@ Coordinator::Coordinator(const world::Scenario& scenario, const LatticeOptions& 
                      {},
                      {},
                      geom::placed(body, robot.start).core,
-                     geom::placed(body, robot.goal).core});
+                     geom::placed(body, *robot.goal).core});
   }
   const std::vector<MovingPart> parts = moving_parts(scenario);
   obstacles_.resize(clocks_.size());

@@ -33,7 +33,7 @@ double longest_car(const world::Scenario& scenario) {
 
 std::optional<Vec2> crossing_point(const world::Robot& a, const world::Robot& b) {
   const Vec2 p = a.start.position(), q = b.start.position();
-  const Vec2 u = a.goal.position() - p, v = b.goal.position() - q;
+  const Vec2 u = a.goal->position() - p, v = b.goal->position() - q;
   const double det = cross(u, v);
   // Ways that meet head on meet half way, whatever their rounding says.
   if (std::abs(det) < 1e-3 * norm(u) * norm(v)) {
@@ -46,7 +46,7 @@ std::optional<Vec2> crossing_point(const world::Robot& a, const world::Robot& b)
 }
 
 double distance_to_way(const world::Robot& robot, Vec2 point) {
-  const Vec2 p = robot.start.position(), u = robot.goal.position() - p;
+  const Vec2 p = robot.start.position(), u = robot.goal->position() - p;
   const double length2 = std::max(squared_norm(u), 1e-12);
   const double s = std::clamp(dot(point - p, u) / length2, 0.0, 1.0);
   return norm(p + s * u - point);
@@ -145,10 +145,10 @@ std::optional<Path> path_by_ring(const world::Scenario& scenario, const world::S
   for (const double turn : {kGentle / model.max_curvature(), kTight / model.max_curvature()}) {
     for (const double first : {-turn, turn})
       for (const double last : {-turn, turn}) {
-        auto arcs = arcs_by_ring(who.start, who.goal, {center, radius}, first, last);
+        auto arcs = arcs_by_ring(who.start, *who.goal, {center, radius}, first, last);
         if (!arcs || (best && length_of(*arcs) >= length_of(best->arcs))) continue;
         if (sweep(checker, who.start, checker.room(who.start), *arcs) < 0.0) continue;
-        best = Route{who.start, who.goal, std::move(*arcs)};
+        best = Route{who.start, *who.goal, std::move(*arcs)};
       }
     if (best) return sampled(*best, kPathSpacing * model.length());
   }

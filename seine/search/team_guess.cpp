@@ -85,7 +85,7 @@ std::optional<Path> Guess::find_path(int robot, std::span<const Bump> bumps,
 std::optional<Path> Guess::find_path_from(const world::Robot& who, const geom::Pose2& start,
                                           const PathOptions& options) const {
   const PathPlanner& planner = planners_[idx(who.model)];
-  std::optional<Path> path = planner.plan(start, who.goal, options);
+  std::optional<Path> path = planner.plan(start, *who.goal, options);
   const int gear = who.start_speed < 0.0 ? -1 : 1;
   if (who.start_speed == 0.0 || (path && path->points.front().gear == gear)) return path;
 
@@ -104,7 +104,7 @@ std::optional<Path> Guess::find_path_from(const world::Robot& who, const geom::P
     if (!map_.clear(footprint, options.clearance)) return std::nullopt;
     braking.points.push_back({s, pose, 0.0, gear});
   }
-  path = planner.plan(braking.points.back().pose, who.goal, options);
+  path = planner.plan(braking.points.back().pose, *who.goal, options);
   if (!path) return std::nullopt;
   const bool same_gear = path->points.front().gear == gear;
   for (std::size_t i = same_gear ? 1 : 0; i < path->points.size(); ++i) {

@@ -185,7 +185,7 @@ TeamSearch::Placed TeamSearch::around_the_parked(int robot, const TeamState& sta
   if (!may_search() || futile_[idx(robot)] >= kMostFailures) return nullptr;
   const world::Scenario& scenario = coordinator_.scenario();
   const auto own_start = coordinator_.footprint_at(robot, scenario.robots[idx(robot)].start);
-  const auto own_goal = coordinator_.footprint_at(robot, scenario.robots[idx(robot)].goal);
+  const auto own_goal = coordinator_.footprint_at(robot, *scenario.robots[idx(robot)].goal);
   std::vector<std::vector<geom::Vec2>> parked;
   const auto park = [&](std::vector<geom::Vec2> place) {
     const double margin = scenario.margins.robot;  // what overlaps the ends has to move anyway
@@ -193,7 +193,7 @@ TeamSearch::Placed TeamSearch::around_the_parked(int robot, const TeamState& sta
   };
   for (int other = 0; other < coordinator_.robots(); ++other) {
     if (other == robot) continue;
-    if (goals) park(coordinator_.footprint_at(other, scenario.robots[idx(other)].goal));
+    if (goals) park(coordinator_.footprint_at(other, *scenario.robots[idx(other)].goal));
     if (!state[idx(other)]) park(coordinator_.footprint_at(other, scenario.robots[idx(other)].start));
   }
   ++effort_.paths;

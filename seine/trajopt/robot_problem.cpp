@@ -87,13 +87,15 @@ void RobotProblem::lay_out(const RobotTask& task, const Units& units) {
     Rest rest{};
     const auto before = static_cast<std::size_t>(std::max(r - 1, 0)),
                after = static_cast<std::size_t>(std::min(r, count - 1));
-    const bool given = r == 0 || r == count;
+    const bool given = r == 0 || (r == count && task.goal);
     if (r == 0) {
       rest.pose = scaled(task.start, units);
       rest.curvature = guess_[0].start_curvature;
       rest.acceleration = guess_[0].start_acceleration;
     } else if (r == count) {
-      rest.pose = scaled(task.goal, units);
+      const SegmentGuess& last = guess_[before];
+      const geom::Pose2 end{last.points.back().x, last.points.back().y, last.end_heading};
+      rest.pose = given ? scaled(*task.goal, units) : end;
       rest.curvature = guess_[before].end_curvature;
       rest.acceleration = guess_[before].end_deceleration;
     } else {
@@ -123,7 +125,7 @@ void RobotProblem::set_scale() {
   }
   for (std::size_t r = 0; r < rests_.size(); ++r) {
     if (rests_[r].pose_variable < 0) continue;
-    const double l = std::min(piece_length(r - 1), piece_length(r));
+    const double l = std::min(piece_length(r - 1), piece_length(std::min(r, segments_.size() - 1)));
     const auto at = static_cast<std::size_t>(rests_[r].pose_variable);
     scale_[at] = scale_[at + 1] = std::min(1.0, l * l * kappa_unit_);
     scale_[at + 2] = std::min(1.0, l * kappa_unit_);

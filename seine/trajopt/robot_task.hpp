@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "seine/corridor/corridor.hpp"
@@ -29,8 +30,8 @@ struct SegmentGuess {
 struct RobotTask {
   vehicle::Model model;
   geom::Pose2 start;
-  double start_speed = 0.0;  ///< m/s, signed
-  geom::Pose2 goal;
+  double start_speed = 0.0;         ///< m/s, signed
+  std::optional<geom::Pose2> goal;  ///< absent: the end pose is free
   std::vector<SegmentGuess> segments;
   /// Half-planes at every curve sample: kCurveLanes a piece, pieces of all segments in a row.
   corridor::Corridor corridor;

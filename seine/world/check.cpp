@@ -149,7 +149,7 @@ struct Stand {
 Stand stand_of(const Scenario& scenario, std::size_t robot, bool goal) {
   const Robot& r = scenario.robots[robot];
   Stand stand{name_of(r, robot) + (goal ? " at its goal" : " at its start"),
-              geom::placed({scenario.model_of(r).footprint, 0.0}, goal ? r.goal : r.start),
+              geom::placed({scenario.model_of(r).footprint, 0.0}, goal ? *r.goal : r.start),
               {}};
   stand.box = stand.footprint.box();
   return stand;
@@ -240,9 +240,11 @@ bool check_robot(const Scenario& scenario, std::size_t index, const std::vector<
     out.push_back(who + " starts at " + number(robot.start_speed) + " m/s, faster than its limit of " +
                   number(limit) + " m/s");
   }
-  for (const auto& [pose, what] :
-       {std::pair{&robot.start, " starts"}, std::pair{&robot.goal, " has its goal"}}) {
-    if (finite(*pose)) continue;
+  if (!robot.goal && !scenario.net)
+    out.push_back(who + " has no goal, which only a team with a net may lack");
+  for (const auto& [pose, what] : {std::pair{&robot.start, " starts"},
+                                   std::pair{robot.goal ? &*robot.goal : nullptr, " has its goal"}}) {
+    if (pose == nullptr || finite(*pose)) continue;
     out.push_back(who + what + " at a pose that is not finite");
     fine = false;
   }
@@ -262,7 +264,7 @@ std::vector<std::string> check(const Scenario& scenario, const StaticMap& map) {
   for (std::size_t i = 0; i < scenario.robots.size(); ++i) {
     if (!check_robot(scenario, i, model_fine, out)) continue;
     starts.push_back(stand_of(scenario, i, false));
-    goals.push_back(stand_of(scenario, i, true));
+    if (scenario.robots[i].goal) goals.push_back(stand_of(scenario, i, true));
   }
   const auto usable = [](double given) { return given >= 0.0 && std::isfinite(given) ? given : 0.0; };
   const double margin = usable(scenario.margins.obstacle);

@@ -113,9 +113,10 @@ bool scatter_obstacles(Scenario& scenario, std::vector<Clutter>& clutter, int co
 bool scatter_robots(Scenario& scenario, const std::vector<Clutter>& clutter, int count, Rng& rng) {
   const double side = scenario.bounds.high.x;
   const geom::Box inside = scenario.bounds.inflated(-kClear);
-  const auto apart = [&](Vec2 point, Pose2 Robot::*end) {
+  const auto apart = [&](Vec2 start, Vec2 goal) {
     return std::all_of(scenario.robots.begin(), scenario.robots.end(), [&](const Robot& other) {
-      return geom::norm((other.*end).position() - point) >= kApart;
+      return geom::norm(other.start.position() - start) >= kApart &&
+             geom::norm(other.goal->position() - goal) >= kApart;
     });
   };
   for (int i = 0; i < count; ++i) {
@@ -128,7 +129,7 @@ bool scatter_robots(Scenario& scenario, const std::vector<Clutter>& clutter, int
       const double arrive = geom::wrap_angle(way + rng.uniform(-kHeadingSpread, kHeadingSpread));
       if (!inside.contains(goal) || !far_from(clutter, start, kClear) || !far_from(clutter, goal, kClear))
         continue;
-      if (!apart(start, &Robot::start) || !apart(goal, &Robot::goal)) continue;
+      if (!apart(start, goal)) continue;
       add_robot(scenario, {start.x, start.y, leave}, {goal.x, goal.y, arrive});
       break;
     }

@@ -152,7 +152,7 @@ bool add_robot(Scenario& scenario, const Floor& floor, const std::vector<int>& p
   const auto free = [&](int cell) {
     return std::all_of(scenario.robots.begin(), scenario.robots.end(), [&](const Robot& other) {
       return geom::norm(other.start.position() - floor.center(cell)) >= kApart &&
-             geom::norm(other.goal.position() - floor.center(cell)) >= kApart;
+             geom::norm(other.goal->position() - floor.center(cell)) >= kApart;
     });
   };
   const int start = any();
@@ -169,7 +169,7 @@ bool add_robot(Scenario& scenario, const Floor& floor, const std::vector<int>& p
     const double arrive = heading_of(g - floor.downhill(from_start, goal), rng);
     scenario.robots.push_back({.name = "car" + std::to_string(scenario.robots.size()),
                                .start = {s.x, s.y, leave},
-                               .goal = {g.x, g.y, arrive}});
+                               .goal = geom::Pose2{g.x, g.y, arrive}});
     return true;
   }
   return false;

@@ -9,6 +9,8 @@
 #include "seine/geom/box.hpp"
 #include "seine/geom/grid.hpp"
 #include "seine/geom/pose2.hpp"
+#include "seine/net/net.hpp"
+#include "seine/net/target.hpp"
 #include "seine/vehicle/model.hpp"
 
 namespace seine::world {
@@ -39,8 +41,8 @@ struct Robot {
   std::string name;
   int model = 0;  ///< index into Scenario::models
   geom::Pose2 start;
-  double start_speed = 0.0;  ///< m/s, signed
-  geom::Pose2 goal;          ///< reached at rest
+  double start_speed = 0.0;         ///< m/s, signed
+  std::optional<geom::Pose2> goal;  ///< reached at rest; absent: anywhere (only in a team with a net)
 };
 
 /// Certified clearances, metres.
@@ -58,6 +60,10 @@ struct Scenario {
   std::vector<vehicle::Model> models;  ///< at least one
   Margins margins;
   std::vector<Robot> robots;
+  std::optional<net::Net> net;            ///< held by the robots in their order
+  std::vector<net::Target> targets;       ///< to be caught in it
+  std::optional<net::Payload> payload;    ///< already in it at t = 0
+  std::optional<net::Delivery> delivery;  ///< where the payload must come to rest
 
   const vehicle::Model& model_of(const Robot& robot) const {
     return models[static_cast<std::size_t>(robot.model)];

@@ -94,11 +94,11 @@ TEST(Planted, WrongStartOrGoal) {
       {"start heading", Kind::start, [](auto& r) { r.start.heading += 2e-4; }},
       {"start opposite", Kind::start, [](auto& r) { r.start.heading += std::numbers::pi; }},
       {"start speed", Kind::start, [](auto& r) { r.start_speed = 0.01; }},
-      {"goal x", Kind::goal, [](auto& r) { r.goal.x -= 2e-4; }},
-      {"goal y", Kind::goal, [](auto& r) { r.goal.y += 2e-4; }},
-      {"goal heading", Kind::goal, [](auto& r) { r.goal.heading -= 2e-4; }},
+      {"goal x", Kind::goal, [](auto& r) { r.goal->x -= 2e-4; }},
+      {"goal y", Kind::goal, [](auto& r) { r.goal->y += 2e-4; }},
+      {"goal heading", Kind::goal, [](auto& r) { r.goal->heading -= 2e-4; }},
       {"start NaN", Kind::start, [](auto& r) { r.start.x = kNaN; }},
-      {"goal NaN", Kind::goal, [](auto& r) { r.goal.heading = kNaN; }},
+      {"goal NaN", Kind::goal, [](auto& r) { r.goal->heading = kNaN; }},
   };
   for (const auto& [name, kind, spoil] : spoils) {
     Sound sound;

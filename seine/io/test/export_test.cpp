@@ -26,8 +26,8 @@ struct Team {
     vehicle::Model car;
     car.footprint = vehicle::rectangle_footprint(0.6, 0.4, 0.1);
     scenario.models = {car};
-    scenario.robots = {{.name = "a", .start = {}, .goal = {1, 0, 0}},
-                       {.name = "b, c", .start = {0, 2, 0}, .goal = {-1, 2, 0}}};
+    scenario.robots = {{.name = "a", .start = {}, .goal = geom::Pose2{1, 0, 0}},
+                       {.name = "b, c", .start = {0, 2, 0}, .goal = geom::Pose2{-1, 2, 0}}};
     plan.robots = {straight(0, 1, 0, 2), straight(2, -1, 0.5, 1)};
   }
 

@@ -23,8 +23,8 @@ world::Scenario two_cars() {
   vehicle::Model car;
   car.footprint = vehicle::rectangle_footprint(0.6, 0.4, 0.1);
   scenario.models = {car};
-  scenario.robots = {{.name = "a", .start = {}, .goal = {1, 0, 0}},
-                     {.name = "b", .start = {0, 2, 0}, .goal = {1, 2, 0}}};
+  scenario.robots = {{.name = "a", .start = {}, .goal = geom::Pose2{1, 0, 0}},
+                     {.name = "b", .start = {0, 2, 0}, .goal = geom::Pose2{1, 2, 0}}};
   return scenario;
 }
 

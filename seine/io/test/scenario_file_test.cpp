@@ -113,7 +113,7 @@ TEST(ScenarioFile, DefaultsAreTheDocumentedOnes) {
   ASSERT_EQ(s.robots.size(), 1U);
   EXPECT_EQ(s.robots[0].name, "car0");
   EXPECT_EQ(s.robots[0].start_speed, 0.0);
-  EXPECT_EQ(s.robots[0].goal.heading, geom::wrap_angle(7.0));
+  EXPECT_EQ(s.robots[0].goal->heading, geom::wrap_angle(7.0));
 }
 
 constexpr const char* kFull = R"(seine: 1
@@ -300,7 +300,7 @@ TEST(Clmapf, ReadsEveryInstance) {
     EXPECT_NE(name.find("agents" + std::to_string(s.robots.size()) + "_"), std::string::npos) << name;
     EXPECT_EQ(s.obstacles.size(), name.find("100by100") != std::string::npos ? 50U : 25U) << name;
     for (const world::Robot& robot : s.robots) {
-      for (const geom::Pose2& pose : {robot.start, robot.goal}) {
+      for (const geom::Pose2& pose : {robot.start, *robot.goal}) {
         for (const geom::Vec2 corner : s.models[0].footprint)
           EXPECT_TRUE(s.bounds.contains(pose * corner)) << name;
       }

@@ -49,8 +49,8 @@ void expect_kept(const world::Scenario& scenario, const traj::TeamTrajectory& pl
     const traj::State first = plan.robots[k].at(0.0), last = plan.robots[k].at(plan.makespan());
     EXPECT_NEAR(geom::norm(first.pose.position() - robot.start.position()), 0.0, 1e-6);
     EXPECT_NEAR(first.speed, robot.start_speed, 1e-6);
-    EXPECT_NEAR(geom::norm(last.pose.position() - robot.goal.position()), 0.0, 1e-6);
-    EXPECT_NEAR(geom::wrap_angle(last.pose.heading - robot.goal.heading), 0.0, 1e-6);
+    EXPECT_NEAR(geom::norm(last.pose.position() - robot.goal->position()), 0.0, 1e-6);
+    EXPECT_NEAR(geom::wrap_angle(last.pose.heading - robot.goal->heading), 0.0, 1e-6);
     EXPECT_NEAR(last.speed, 0.0, 1e-6);
   }
 }

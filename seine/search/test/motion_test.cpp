@@ -121,7 +121,7 @@ TEST(CostToGo, IsDijkstraInAnyOrderOfQuestions) {
   SCOPED_TRACE(kSeed);
   const Scene scene(kSeed);
   Rng rng(kSeed);
-  const geom::Vec2 goal = scene.scenario.robots[0].goal.position();
+  const geom::Vec2 goal = scene.scenario.robots[0].goal->position();
   CostToGo all({&scene.distances, 0.25}, goal);
   // One that is asked corner to corner sees everything; another is asked at random with changing focus.
   CostToGo some({&scene.distances, 0.25}, goal);

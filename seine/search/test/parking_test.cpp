@@ -20,11 +20,11 @@ world::Scenario parking_case(int number) {
   scenario.margins = {0.0, 0.0};
   world::Robot car;
   car.start = {values.at(0), values.at(1), geom::wrap_angle(values.at(2))};
-  car.goal = {values.at(3), values.at(4), geom::wrap_angle(values.at(5))};
+  car.goal = geom::Pose2{values.at(3), values.at(4), geom::wrap_angle(values.at(5))};
   scenario.robots = {car};
   geom::Box ends;
   ends.include(car.start.position());
-  ends.include(car.goal.position());
+  ends.include(car.goal->position());
   scenario.bounds = ends.inflated(8.0);
   const auto count = static_cast<std::size_t>(values.at(6));
   std::size_t at = 7 + count;
@@ -51,10 +51,11 @@ TEST_P(Parking, ASoundPathIsFound) {
   PathOptions options;
   options.clearance = 0.0;
   const Stopwatch watch;
-  const auto path = planner.plan(scenario.robots[0].start, scenario.robots[0].goal, options);
+  const auto path = planner.plan(scenario.robots[0].start, *scenario.robots[0].goal, options);
   RecordProperty("milliseconds", std::to_string(1e3 * watch.seconds()));
   ASSERT_TRUE(path);
-  expect_sound(*path, scenario.robots[0].start, scenario.robots[0].goal, map, scenario.models[0], 0.0, 0.003);
+  expect_sound(*path, scenario.robots[0].start, *scenario.robots[0].goal, map, scenario.models[0], 0.0,
+               0.003);
 }
 
 INSTANTIATE_TEST_SUITE_P(Cases, Parking, testing::Values(1, 3, 5, 7, 9, 11, 13, 15, 17, 19));

@@ -40,10 +40,10 @@ int plan_all(const world::Scenario& scenario) {
   const PathPlanner planner(map, scenario.models[0]);
   int found = 0;
   for (const world::Robot& robot : scenario.robots) {
-    const auto path = planner.plan(robot.start, robot.goal, with_clearance(scenario.margins.obstacle));
+    const auto path = planner.plan(robot.start, *robot.goal, with_clearance(scenario.margins.obstacle));
     if (!path) continue;
     ++found;
-    expect_sound(*path, robot.start, robot.goal, map, scenario.models[0], scenario.margins.obstacle);
+    expect_sound(*path, robot.start, *robot.goal, map, scenario.models[0], scenario.margins.obstacle);
   }
   return found;
 }
@@ -162,7 +162,7 @@ TEST(PathPlanner, StopsAtTheDeadline) {
   PathOptions options;
   options.deadline = Deadline(0.0);
   for (const auto& robot : scenario.robots)
-    planner.plan(robot.start, robot.goal, options);  // any answer, soon
+    planner.plan(robot.start, *robot.goal, options);  // any answer, soon
 }
 
 TEST(PathPlanner, TheSamePathInAnyOrderAndFromAnyThread) {
@@ -171,7 +171,7 @@ TEST(PathPlanner, TheSamePathInAnyOrderAndFromAnyThread) {
   const auto options = with_clearance(scenario.margins.obstacle);
   std::vector<Path> alone;
   for (const auto& robot : scenario.robots) {
-    alone.push_back(PathPlanner(map, scenario.models[0]).plan(robot.start, robot.goal, options).value());
+    alone.push_back(PathPlanner(map, scenario.models[0]).plan(robot.start, *robot.goal, options).value());
   }
   const PathPlanner shared(map, scenario.models[0]);
   std::vector<std::vector<Path>> found(2);
@@ -181,7 +181,7 @@ TEST(PathPlanner, TheSamePathInAnyOrderAndFromAnyThread) {
       for (int round = 0; round < 2; ++round) {
         found[t].clear();
         for (const auto& robot : scenario.robots)
-          found[t].push_back(*shared.plan(robot.start, robot.goal, options));
+          found[t].push_back(*shared.plan(robot.start, *robot.goal, options));
       }
     });
   }

@@ -48,8 +48,8 @@ class TeamCheck {
     EXPECT_NEAR(motion.profile.back().s, motion.path.length(), kRound);
     const geom::Pose2 start = pose_at(motion.path, 0.0), goal = pose_at(motion.path, motion.path.length());
     EXPECT_LT(norm(start.position() - robot.start.position()), kRound);
-    EXPECT_LT(norm(goal.position() - robot.goal.position()), kRound);
-    EXPECT_LT(std::abs(geom::wrap_angle(goal.heading - robot.goal.heading)), kRound);
+    EXPECT_LT(norm(goal.position() - robot.goal->position()), kRound);
+    EXPECT_LT(std::abs(geom::wrap_angle(goal.heading - robot.goal->heading)), kRound);
     for (std::size_t k = 1; k < motion.profile.size(); ++k) {
       const ProfileKnot &a = motion.profile[k - 1], &b = motion.profile[k];
       ASSERT_GT(b.t, a.t);

@@ -154,7 +154,7 @@ TEST(TeamGuess, ExtraClearanceIsKeptWhereThereIsRoom) {
 
 TEST(TeamGuess, SaysWhoHasNoWay) {
   world::Scenario scenario = world::generate(Family::random, 4, 0);
-  const geom::Vec2 p = scenario.robots[2].goal.position();
+  const geom::Vec2 p = scenario.robots[2].goal->position();
   scenario.obstacles.push_back(
       {"lid", std::vector<geom::Vec2>{{p.x - 1, p.y - 1}, {p.x + 1, p.y - 1}, {p.x, p.y + 1}}, 1.0, {}});
   const TeamGuess guess = guess_of(scenario);

@@ -24,8 +24,8 @@ Scenario good() {
   s.bounds = {{0.0, 0.0}, {10.0, 10.0}};
   s.models.push_back(
       {.name = "default", .footprint = vehicle::rectangle_footprint(0.6, 0.4, 0.1), .limits = {}});
-  s.robots.push_back({.name = "car0", .start = {1.0, 1.0, 0.0}, .goal = {8.0, 8.0, 0.0}});
-  s.robots.push_back({.name = "", .start = {1.0, 3.0, 0.0}, .goal = {8.0, 6.0, 0.0}});
+  s.robots.push_back({.name = "car0", .start = {1.0, 1.0, 0.0}, .goal = geom::Pose2{8.0, 8.0, 0.0}});
+  s.robots.push_back({.name = "", .start = {1.0, 3.0, 0.0}, .goal = geom::Pose2{8.0, 6.0, 0.0}});
   s.obstacles.push_back({.name = "block", .shape = square(4.0, 4.0, 1.0), .motion = {}});
   return s;
 }
@@ -70,7 +70,7 @@ TEST(Check, NumbersThatMakeNoSense) {
   expect_one([](Scenario& s) { s.robots[0].start_speed = 2.6; }, {"car0", "2.6", "2.5"});
   expect_one([](Scenario& s) { s.robots[1].start_speed = -2.6; }, {"robot 2", "-2.6"});
   expect_one([](Scenario& s) { s.robots[0].model = 3; }, {"car0", "model number 3"});
-  expect_one([nan](Scenario& s) { s.robots[0].goal.heading = nan; }, {"car0", "goal", "not finite"});
+  expect_one([nan](Scenario& s) { s.robots[0].goal->heading = nan; }, {"car0", "goal", "not finite"});
   expect_one([](Scenario& s) { s.obstacles[0].shape = Circle{{5.0, 5.0}, 0.0}; }, {"radius of block"});
   expect_one([](Scenario& s) { s.obstacles[0].motion = {{1.0, {}}, {1.0, {}}}; }, {"waypoint 2 of block"});
 }
@@ -84,7 +84,7 @@ TEST(Check, PlacesThatAreTaken) {
       {"car0 at its start overlaps block by 0.1 m"});
   expect_one(
       [](Scenario& s) {
-        s.robots[0].goal = {3.47, 4.5, 0.0};
+        s.robots[0].goal = geom::Pose2{3.47, 4.5, 0.0};
       },
       {"car0 at its goal is 0.03 m from block", "margin of 0.05 m"});
   expect_one(
@@ -100,7 +100,7 @@ TEST(Check, PlacesThatAreTaken) {
       {"car0 at its start overlaps robot 2 at its start by 0.1 m"});
   expect_one(
       [](Scenario& s) {
-        s.robots[1].goal = {8.62, 8.0, 0.0};
+        s.robots[1].goal = geom::Pose2{8.62, 8.0, 0.0};
       },
       {"car0 at its goal is 0.02 m from robot 2 at its goal"});
 }
@@ -142,11 +142,11 @@ TEST(Check, MovingObstaclesAtTheirBeginningAndEnd) {
 TEST(Check, WithoutAMarginTouchingIsAllowed) {
   Scenario s = good();
   s.margins = {0.0, 0.0};
-  s.robots[0].start = {0.1, 1.0, 0.0};         // against the bounds
-  s.robots[1].start = {0.7 + 5e-7, 1.0, 0.0};  // against the other car
-  s.robots[0].goal = {3.5 + 5e-7, 4.5, 0.0};   // into the block by less than the tolerance
+  s.robots[0].start = {0.1, 1.0, 0.0};                   // against the bounds
+  s.robots[1].start = {0.7 + 5e-7, 1.0, 0.0};            // against the other car
+  s.robots[0].goal = geom::Pose2{3.5 + 5e-7, 4.5, 0.0};  // into the block by less than the tolerance
   EXPECT_TRUE(complaints(s).empty());
-  s.robots[0].goal.x += 2e-6;
+  s.robots[0].goal->x += 2e-6;
   EXPECT_EQ(complaints(s).size(), 1U);
 }
 

@@ -55,16 +55,16 @@ TEST(Families, RandomKeepsWhatItPromises) {
     EXPECT_EQ(scenario.bounds.size(), (geom::Vec2{20.0, 20.0}));
     EXPECT_EQ(scenario.obstacles.size(), 20U);
     for (const Robot& robot : scenario.robots) {
-      const geom::Vec2 way = robot.goal.position() - robot.start.position();
+      const geom::Vec2 way = robot.goal->position() - robot.start.position();
       EXPECT_GE(geom::norm(way), 9.2);
       EXPECT_LE(geom::norm(way), 11.2);
       const double angle = std::atan2(way.y, way.x);
       EXPECT_LE(std::abs(geom::wrap_angle(robot.start.heading - angle)), 0.8);
-      EXPECT_LE(std::abs(geom::wrap_angle(robot.goal.heading - angle)), 0.8);
+      EXPECT_LE(std::abs(geom::wrap_angle(robot.goal->heading - angle)), 0.8);
       for (const Robot& other : scenario.robots) {
         if (&other == &robot) continue;
         EXPECT_GE(distance(robot.start, other.start), 1.3);
-        EXPECT_GE(distance(robot.goal, other.goal), 1.3);
+        EXPECT_GE(distance(*robot.goal, *other.goal), 1.3);
       }
     }
   }
@@ -104,7 +104,7 @@ TEST(OnMap, TeamsStandFreeAndFarFromTheirGoals) {
   for (std::uint64_t seed = 0; seed < 5; ++seed) {
     const Scenario scenario = on_map(two_rooms(), 4, seed);
     EXPECT_EQ(complaints(scenario), "");
-    for (const Robot& robot : scenario.robots) EXPECT_GT(distance(robot.start, robot.goal), 1.0);
+    for (const Robot& robot : scenario.robots) EXPECT_GT(distance(robot.start, *robot.goal), 1.0);
     EXPECT_EQ(on_map(two_rooms(), 4, seed).robots[3].goal, scenario.robots[3].goal);
   }
 }
