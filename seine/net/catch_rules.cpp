@@ -1,0 +1,41 @@
+#include "seine/net/catch_rules.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "seine/net/hanging.hpp"
+#include "seine/net/shape.hpp"
+
+namespace seine::net {
+
+using geom::Vec2;
+
+double speed_limit(double depth, double radius, double rebound) {
+  const double drop = std::max(0.0, depth - radius);
+  const double bounce = 1.0 / (rebound * rebound) - 1.0;
+  return std::min(kMaxSpeed, 0.85 * std::sqrt(2.0 * kGravity * drop * bounce));
+}
+
+double impact_drop(double speed, double mass) {
+  return 0.08 + 0.024 * speed * std::sqrt(mass / 0.25);
+}
+
+Catch measure_catch(const Net& net, const Target& target, const Crossing& crossing,
+                    std::span<const Vec2> attachments, Vec2 formation_velocity) {
+  const Vec2 at = crossing.state.position.ground();
+  const Vec2 sideways = crossing.state.velocity.ground() - formation_velocity;
+  const double falling = -crossing.state.velocity.z;
+  const double depth = loaded_depth(net, attachments);
+  const double covered = target.radius + crossing.error;
+  const double speed = std::hypot(geom::norm(sideways), falling);
+  return {.time = crossing.state.time,
+          .rim_margin = margin_inside(attachments, at) - covered,
+          .contact_margin = margin_inside(attachments, at + (depth / falling) * sideways) - covered,
+          .opening = opening(net, attachments),
+          .depth = depth,
+          .angle = std::atan2(geom::norm(sideways), falling),
+          .speed = speed,
+          .bottom = net.rim() - depth - impact_drop(speed, target.mass)};
+}
+
+}  // namespace seine::net
