@@ -7,6 +7,7 @@
 #include "seine/constraint/footprint_distance.hpp"
 #include "seine/constraint/inter_vehicle.hpp"
 #include "seine/constraint/lateral_acceleration.hpp"
+#include "seine/constraint/net_registry.hpp"
 #include "seine/constraint/progress.hpp"
 #include "seine/constraint/regularity.hpp"
 #include "seine/constraint/speed.hpp"
@@ -112,16 +113,18 @@ double footprint_distance_entry(std::span<const double> x, std::span<double> g) 
 }  // namespace
 
 std::vector<Entry> registry() {
-  return {{"corridor", 4, corridor_entry, draw_pair},
-          {"curvature", 4, curvature_entry, draw_curve},
-          {"footprint_distance", 6, footprint_distance_entry, draw_any},
-          {"inter_vehicle", 6, inter_vehicle_entry, draw_any},
-          scalar("lateral_acceleration", lateral_acceleration),
-          scalar("progress", progress),
-          {"regularity", 3, regularity_entry, draw_curve},
-          scalar("speed", speed),
-          {"steering_rate", 7, steering_rate_entry, draw_curve},
-          scalar("tangential_acceleration", tangential_acceleration)};
+  std::vector<Entry> all{{"corridor", 4, corridor_entry, draw_pair},
+                         {"curvature", 4, curvature_entry, draw_curve},
+                         {"footprint_distance", 6, footprint_distance_entry, draw_any},
+                         {"inter_vehicle", 6, inter_vehicle_entry, draw_any},
+                         scalar("lateral_acceleration", lateral_acceleration),
+                         scalar("progress", progress),
+                         {"regularity", 3, regularity_entry, draw_curve},
+                         scalar("speed", speed),
+                         {"steering_rate", 7, steering_rate_entry, draw_curve},
+                         scalar("tangential_acceleration", tangential_acceleration)};
+  for (Entry& entry : net_registry()) all.push_back(std::move(entry));
+  return all;
 }
 
 }  // namespace seine::constraint

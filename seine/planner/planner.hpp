@@ -17,10 +17,21 @@ struct Progress {
   double fraction = 0.0;   ///< of the stage, 0 … 1
 };
 
+/// Parts of the method switched off, to see what each brings (the supplement's ablations [Pei24]). The
+/// certificate still asks for everything.
+struct Ablation {
+  bool catching = false;    ///< nothing pulls the team to its targets
+  bool size = false;        ///< the net may stretch and drag
+  bool topology = false;    ///< the ring may fold
+  bool relaxation = false;  ///< end poses stay where the guess has them
+  bool cusps = false;       ///< so do gear changes
+};
+
 struct Options {
   double deadline_s = std::numeric_limits<double>::infinity();  ///< wall time for everything
   int threads = 0;                                              ///< 0: as many as the machine has
   std::uint64_t seed = 0;
+  Ablation without;
   std::function<void(const Progress&)> progress;  ///< optional
 };
 

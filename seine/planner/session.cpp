@@ -8,6 +8,7 @@
 #include "seine/certify/certificate.hpp"
 #include "seine/planner/groups.hpp"
 #include "seine/planner/moving_bodies.hpp"
+#include "seine/planner/net_session.hpp"
 #include "seine/world/check.hpp"
 
 namespace seine::planner {
@@ -297,6 +298,7 @@ PlanResult Session::finish() {
 }
 
 PlanResult plan(const world::Scenario& scenario, const Options& options) {
+  if (scenario.net) return NetSession(scenario, options).run();
   return Session(scenario, options).run();
 }
 

@@ -1,6 +1,7 @@
 #include "seine/trajopt/joint_problem.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 namespace seine::trajopt {
 namespace {
@@ -48,9 +49,10 @@ JointProblem::JointProblem(const Task& task, const Settings& settings, Workers& 
       offsets_{0},
       proximity_(shapes_of(task, units_), task.bodies, scaled(task.extra, 1.0 / units_.length),
                  task.robot_clearance / units_.length + settings.clearance_slack, task.ticks),
+      needed_(task.robots.size()),
       states_(task.robots.size() * static_cast<std::size_t>(task.ticks)),
       costs_(task.robots.size()),
-      chunk_costs_(Proximity::kChunks),
+      chunk_costs_(Proximity::kChunks + NetTerms::kChunks),
       tick_(task.tick / units_.time),
       ticks_(task.ticks) {
   for (std::size_t k = 0; k < task.robots.size(); ++k) {
@@ -58,61 +60,150 @@ JointProblem::JointProblem(const Task& task, const Settings& settings, Workers& 
                          task.demands.empty() ? Demand{} : task.demands[k]);
     offsets_.push_back(offsets_.back() + robots_.back().variables());
   }
+  variables_ = offsets_.back();
+  if (task.one_timing) tie();
+  if (task.net == nullptr) return;
+  net_.emplace(*task.net, units_, settings, tick_, Proximity::kStride);
+  moments_.resize(robots_.size() * net_->moments().size());
+}
+
+// The first robot's timing is everybody's.
+void JointProblem::tie() {
+  tied_.assign(static_cast<std::size_t>(offsets_.back()), -1);
+  const std::vector<int> first = robots_.front().timing();
+  variables_ = 0;
+  for (std::size_t k = 0; k < robots_.size(); ++k) {
+    const std::vector<int> timing = robots_[k].timing();
+    const auto begin = static_cast<std::size_t>(offsets_[k]);
+    for (std::size_t j = 0; k > 0 && j < timing.size(); ++j)
+      tied_[begin + static_cast<std::size_t>(timing[j])] = tied_[static_cast<std::size_t>(first[j])];
+    for (std::size_t i = begin; i < static_cast<std::size_t>(offsets_[k + 1]); ++i)
+      if (tied_[i] < 0) tied_[i] = variables_++;
+  }
+  own_x_.resize(tied_.size()), own_gradient_.resize(tied_.size());
 }
 
 std::vector<double> JointProblem::initial() const {
-  std::vector<double> x(static_cast<std::size_t>(variables()));
+  std::vector<double> x(static_cast<std::size_t>(offsets_.back()));
   for (std::size_t k = 0; k < robots_.size(); ++k)
     robots_[k].initial(std::span(x).subspan(static_cast<std::size_t>(offsets_[k]),
                                             static_cast<std::size_t>(robots_[k].variables())));
-  return x;
+  if (tied_.empty()) return x;
+  std::vector<double> sum(static_cast<std::size_t>(variables_)), count(sum.size());
+  for (std::size_t i = 0; i < tied_.size(); ++i) {
+    sum[static_cast<std::size_t>(tied_[i])] += x[i];
+    count[static_cast<std::size_t>(tied_[i])] += 1.0;
+  }
+  for (std::size_t i = 0; i < sum.size(); ++i) sum[i] /= count[i];
+  return sum;
+}
+
+// The robots' own variables, all of them in a row.
+std::span<const double> JointProblem::own(std::span<const double> x) {
+  if (tied_.empty()) return x;
+  for (std::size_t i = 0; i < tied_.size(); ++i) own_x_[i] = x[static_cast<std::size_t>(tied_[i])];
+  return own_x_;
+}
+
+std::span<const double> JointProblem::of(std::span<const double> own_x, std::size_t robot) const {
+  return own_x.subspan(static_cast<std::size_t>(offsets_[robot]),
+                       static_cast<std::size_t>(robots_[robot].variables()));
 }
 
 void JointProblem::load(std::span<const double> x) {
+  const std::span<const double> all = own(x);
   workers_.run(static_cast<int>(robots_.size()), [&](int k) {
     const auto i = static_cast<std::size_t>(k);
-    robots_[i].load(
-        x.subspan(static_cast<std::size_t>(offsets_[i]), static_cast<std::size_t>(robots_[i].variables())));
+    robots_[i].load(of(all, i));
   });
 }
 
 void JointProblem::refresh(std::span<const double> x) {
   load(x);
   workers_.run(static_cast<int>(robots_.size()), [&](int k) {
+    const auto i = static_cast<std::size_t>(k);
     for (int tick = 0; tick < ticks_; tick += Proximity::kStride)
-      robots_[static_cast<std::size_t>(k)].locate(tick * tick_,
-                                                  states_[static_cast<std::size_t>(k * ticks_ + tick)]);
+      robots_[i].locate(tick * tick_, state(i, tick));
   });
   proximity_.rebuild(states_, kSkin, kClose);
+  int net_ticks = 0;
+  if (net_) {
+    // Until everybody rests, and a little longer.
+    double last = 0.0;
+    for (const RobotProblem& robot : robots_) last = std::max(last, robot.arrival());
+    net_ticks = std::min(ticks_, static_cast<int>(last / tick_) + 2 * Proximity::kStride);
+    net_->rebuild(states_, net_ticks, ticks_);
+  }
+  for (std::size_t k = 0; k < robots_.size(); ++k) {
+    std::vector<int>& needed = needed_[k];
+    needed.clear();
+    for (int tick = 0; tick < net_ticks; tick += Proximity::kStride) needed.push_back(tick);
+    std::vector<int> merged;
+    std::ranges::set_union(needed, proximity_.ticks_of(static_cast<int>(k)), std::back_inserter(merged));
+    needed = std::move(merged);
+  }
 }
 
-double JointProblem::evaluate(std::span<const double> x, std::span<double> gradient, double knee) {
-  const auto count = static_cast<int>(robots_.size());
-  workers_.run(count, [&](int k) {
-    const auto i = static_cast<std::size_t>(k);
-    RobotProblem& robot = robots_[i];
-    robot.load(x.subspan(static_cast<std::size_t>(offsets_[i]), static_cast<std::size_t>(robot.variables())));
-    costs_[i] = robot.evaluate(knee);
-    for (const int tick : proximity_.ticks_of(k))
-      robot.locate(tick * tick_, states_[static_cast<std::size_t>(k * ticks_ + tick)]);
-  });
+void JointProblem::locate(std::size_t robot) {
+  for (const int tick : needed_[robot]) robots_[robot].locate(tick * tick_, state(robot, tick));
+  if (!net_) return;
+  const std::vector<double>& times = net_->moments();
+  for (std::size_t m = 0; m < times.size(); ++m)
+    robots_[robot].locate(times[m], moments_[robot * times.size() + m]);
+}
+
+void JointProblem::pull_back(std::size_t robot) {
+  const auto pull = [&](const ClockState& s) {
+    if (s.g_position != geom::Vec2{} || s.g_direction != geom::Vec2{}) robots_[robot].pull_back(s);
+  };
+  for (const int tick : needed_[robot]) pull(state(robot, tick));
+  if (!net_) return;
+  const std::size_t count = net_->moments().size();
+  for (std::size_t m = 0; m < count; ++m) pull(moments_[robot * count + m]);
+}
+
+// What cars ask of each other, once all states are known. Net and pairs write to the same states: one after
+// the other.
+double JointProblem::team_cost(double knee) {
   const double weight = settings_.penalty * settings_.pair_penalty * tick_;
   workers_.run(Proximity::kChunks, [&](int chunk) {
     chunk_costs_[static_cast<std::size_t>(chunk)] = proximity_.evaluate(chunk, states_, weight, knee);
   });
+  double cost = 0.0;
+  if (net_) {
+    workers_.run(NetTerms::kChunks, [&](int chunk) {
+      chunk_costs_[static_cast<std::size_t>(Proximity::kChunks + chunk)] =
+          net_->at_ticks(chunk, states_, ticks_, knee);
+    });
+    cost = net_->at_moments(moments_, knee);
+  }
+  for (const double c : chunk_costs_) cost += c;
+  return cost;
+}
+
+double JointProblem::evaluate(std::span<const double> x, std::span<double> gradient, double knee) {
+  const auto count = static_cast<int>(robots_.size());
+  const std::span<const double> all = own(x);
   workers_.run(count, [&](int k) {
     const auto i = static_cast<std::size_t>(k);
-    RobotProblem& robot = robots_[i];
-    for (const int tick : proximity_.ticks_of(k)) {
-      const ClockState& state = states_[static_cast<std::size_t>(k * ticks_ + tick)];
-      if (state.g_position != geom::Vec2{} || state.g_direction != geom::Vec2{}) robot.pull_back(state);
-    }
-    robot.gradient(
-        gradient.subspan(static_cast<std::size_t>(offsets_[i]), static_cast<std::size_t>(robot.variables())));
+    robots_[i].load(of(all, i));
+    costs_[i] = robots_[i].evaluate(knee);
+    locate(i);
   });
-  double cost = 0.0;
+  double cost = team_cost(knee);
+  const std::span<double> own_gradient = tied_.empty() ? gradient : std::span(own_gradient_);
+  workers_.run(count, [&](int k) {
+    const auto i = static_cast<std::size_t>(k);
+    pull_back(i);
+    robots_[i].gradient(own_gradient.subspan(static_cast<std::size_t>(offsets_[i]),
+                                             static_cast<std::size_t>(robots_[i].variables())));
+  });
+  if (!tied_.empty()) {
+    std::ranges::fill(gradient, 0.0);
+    for (std::size_t i = 0; i < tied_.size(); ++i)
+      gradient[static_cast<std::size_t>(tied_[i])] += own_gradient_[i];
+  }
   for (const double c : costs_) cost += c;
-  for (const double c : chunk_costs_) cost += c;
   return cost;
 }
 
@@ -126,7 +217,7 @@ SolveSummary JointProblem::solve(std::span<double> x, const Deadline& deadline, 
     options.max_evaluations = evaluations;
     options.decrease_tolerance = decrease;
     options.past = settings_.past;
-    options.blocks.assign(offsets_.begin(), offsets_.end() - 1);
+    if (tied_.empty()) options.blocks.assign(offsets_.begin(), offsets_.end() - 1);
     options.stop = [&](int iteration, double) {
       if (refresh_at(iteration)) refresh(x);
       return deadline.expired();

@@ -87,7 +87,7 @@ void RobotProblem::lay_out(const RobotTask& task, const Units& units) {
     Rest rest{};
     const auto before = static_cast<std::size_t>(std::max(r - 1, 0)),
                after = static_cast<std::size_t>(std::min(r, count - 1));
-    const bool given = r == 0 || (r == count && task.goal);
+    const bool given = r == 0 || (r == count ? task.goal.has_value() : task.fixed_cusps);
     if (r == 0) {
       rest.pose = scaled(task.start, units);
       rest.curvature = guess_[0].start_curvature;
@@ -111,6 +111,17 @@ void RobotProblem::lay_out(const RobotTask& task, const Units& units) {
     rest.acceleration_variable = variables_++;
     rests_.push_back(rest);
   }
+}
+
+std::vector<int> RobotProblem::timing() const {
+  std::vector<int> indices;
+  for (const Segment& s : segments_) {
+    for (int j = 0; j < s.time_pieces - 1; ++j) indices.push_back(s.progress + j);
+    indices.push_back(s.duration);
+    if (s.wait >= 0) indices.push_back(s.wait);
+  }
+  for (const Rest& rest : rests_) indices.push_back(rest.acceleration_variable);
+  return indices;
 }
 
 // Moving a knot by δ changes the curvature by about δ/l², turning a rest by δ changes it by δ/l.

@@ -44,6 +44,9 @@ class RobotProblem {
                const Demand& demand = {});
 
   int variables() const { return variables_; }
+  /// Which of them are about time: progress, durations, waits, accelerations at rests; in one order for all
+  /// cars.
+  std::vector<int> timing() const;
   void initial(std::span<double> x) const;
 
   /// Takes x and evaluates the curve and the progress; must come before everything below.

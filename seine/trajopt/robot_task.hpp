@@ -32,6 +32,7 @@ struct RobotTask {
   geom::Pose2 start;
   double start_speed = 0.0;         ///< m/s, signed
   std::optional<geom::Pose2> goal;  ///< absent: the end pose is free
+  bool fixed_cusps = false;         ///< gear changes stay where the guess has them
   std::vector<SegmentGuess> segments;
   /// Half-planes at every curve sample: kCurveLanes a piece, pieces of all segments in a row.
   corridor::Corridor corridor;

@@ -17,6 +17,8 @@ struct Settings {
   /// Factors on the penalty for the corridor, and for distances to other cars and moving obstacles: contacts
   /// are short, so their whole multiplier rests on a few samples.
   double corridor_penalty = 4.0, pair_penalty = 3.0;
+  /// The same for what a net asks all the time, and at single moments (catch and delivery).
+  double net_penalty = 3.0, catch_penalty = 2.0;
   double soft_knee = 0.1, stiff_knee = 0.03;            ///< of the hinge, first and second stage
   double soft_decrease = 1e-3, stiff_decrease = 3e-4;   ///< relative decrease that ends a stage …
   int past = 4;                                         ///< … over this many iterations

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <vector>
+
+#include "seine/constraint/registry.hpp"
+
+namespace seine::constraint {
+
+/// The part of the registry that a net brings.
+std::vector<Entry> net_registry();
+
+}  // namespace seine::constraint

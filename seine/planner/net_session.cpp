@@ -1,0 +1,193 @@
+#include "seine/planner/net_session.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "seine/base/error.hpp"
+#include "seine/planner/formation_guess.hpp"
+#include "seine/planner/moving_bodies.hpp"
+#include "seine/world/check.hpp"
+
+namespace seine::planner {
+namespace {
+
+constexpr int kAttempts = 6;
+constexpr int kPolishRounds = 6;
+constexpr double kTick = 0.0667;  // of the time a car takes to drive its own length
+constexpr double kPenaltyRaise = 3.0, kMostPenalty = 100.0;
+constexpr double kTightenRaise = 0.005, kMostTighten = 0.03;
+constexpr double kClearanceRaise = 0.01;  // car lengths, on top of what was missed
+
+}  // namespace
+
+NetSession::NetSession(const world::Scenario& scenario, const Options& options)
+    : scenario_(scenario),
+      options_(options),
+      deadline_(options.deadline_s),
+      workers_(options.threads),
+      map_(scenario) {}
+
+PlanResult NetSession::run() {
+  const auto complaints = world::check(scenario_, map_);
+  if (!complaints.empty()) {
+    const std::string more =
+        complaints.size() > 1 ? " (and " + std::to_string(complaints.size() - 1) + " more)" : "";
+    throw InputError(scenario_.name + ": " + complaints.front() + more);
+  }
+  question_ = ask_net(scenario_, options_.without);
+  if (!question_.refusal.empty()) {
+    result_.reason = question_.refusal;
+    return finish();
+  }
+  for (int attempt = 0; attempt < kAttempts && !deadline_.expired(); ++attempt) {
+    if (!guess(attempt)) continue;
+    prepare();
+    solve(true);
+    polish();
+    if (result_.certified) break;
+    ++result_.repairs;
+  }
+  return finish();
+}
+
+bool NetSession::guess(int attempt) {
+  const Stopwatch watch;
+  report("guess", 0.0);
+  std::string reason;
+  auto found = guess_formation(scenario_, map_, question_, attempt, deadline_, reason);
+  result_.times.guess += watch.seconds();
+  if (!found) {
+    if (result_.certificate.violations.empty() && !reason.empty()) result_.reason = reason;
+    return false;
+  }
+  guess_ = std::move(*found);
+  return true;
+}
+
+void NetSession::prepare() {
+  const Stopwatch watch;
+  tasks_ = fit_formation(guess_, scenario_, map_, {});
+  if (options_.without.relaxation || options_.without.cusps)
+    for (trajopt::RobotTask& task : tasks_) {
+      const trajopt::SegmentGuess& last = task.segments.back();
+      if (options_.without.relaxation && !task.goal)
+        task.goal = geom::Pose2{last.points.back().x, last.points.back().y, last.end_heading};
+      task.fixed_cusps = options_.without.cusps;
+    }
+  settings_ = {};
+  demands_.assign(tasks_.size(), {});
+  const trajopt::Units units = trajopt::units_of(tasks_);
+  tick_ = kTick * units.time;
+  bodies_.clear();
+  const int ticks = static_cast<int>(std::ceil(1.2 * guess_.timing.profile.back().t / tick_)) + 80;
+  bodies_ = moving_obstacles(scenario_, units, settings_.clearance_slack, tick_, ticks);
+  extra_.assign(tasks_.size() * (tasks_.size() + bodies_.size()), 0.0);
+  x_.clear();
+  result_.times.corridor += watch.seconds();
+}
+
+void NetSession::solve(bool soft) {
+  if (deadline_.expired()) return;
+  const Stopwatch watch;
+  report("optimise", 0.0);
+  trajopt::Task task;
+  task.units = trajopt::units_of(tasks_);
+  task.tick = tick_;
+  task.ticks = static_cast<int>(std::ceil(1.2 * guess_.timing.profile.back().t / tick_)) + 80;
+  task.robot_clearance = scenario_.margins.robot;
+  task.extra = extra_;
+  task.demands = demands_;
+  task.net = &question_.task;
+  task.one_timing = true;
+  for (const trajopt::RobotTask& robot : tasks_) task.robots.push_back(&robot);
+  for (const trajopt::Body& body : bodies_) task.bodies.push_back(&body);
+  trajopt::JointProblem problem(task, settings_, workers_);
+  if (x_.empty()) x_ = problem.initial();
+  const trajopt::SolveSummary summary = problem.solve(x_, deadline_, !soft);
+  result_.iterations += summary.soft_evaluations + summary.stiff_evaluations;
+  result_.plan = problem.trajectory(x_);
+  result_.times.optimise += watch.seconds();
+}
+
+bool NetSession::certify() {
+  const Stopwatch watch;
+  report("certify", 0.0);
+  certify::Options options;
+  options.threads = workers_.count();
+  options.deadline = deadline_;
+  result_.certificate = certify::certify(scenario_, map_, result_.plan, options);
+  result_.certified = result_.certificate.holds;
+  result_.times.certify += watch.seconds();
+  return result_.certified;
+}
+
+void NetSession::polish() {
+  for (int round = 0; round < kPolishRounds; ++round) {
+    if (certify() || deadline_.expired()) return;
+    report("repair", static_cast<double>(round) / kPolishRounds);
+    raise_demands(round);
+    solve(false);
+  }
+  certify();
+}
+
+// Asks more where the certificate found fault.
+void NetSession::raise_demands(int round) {
+  const double length = trajopt::units_of(tasks_).length;
+  const std::size_t row = tasks_.size() + bodies_.size();
+  bool net = false;
+  for (const certify::Violation& v : result_.certificate.violations) {
+    const auto a = static_cast<std::size_t>(std::max(v.robot, 0));
+    const double missed = std::clamp(v.limit - v.value, 0.0, 0.05 * length);
+    const double raise = missed + kClearanceRaise * length;
+    switch (v.kind) {
+      case certify::Kind::robot_clearance: {
+        const auto b = static_cast<std::size_t>(v.other);
+        extra_[a * row + b] += raise;
+        extra_[b * row + a] += raise;
+        break;
+      }
+      case certify::Kind::moving_obstacle_clearance:
+        for (std::size_t body = tasks_.size(); body < row; ++body) extra_[a * row + body] += raise;
+        break;
+      case certify::Kind::obstacle_clearance:
+      case certify::Kind::bounds:
+        demands_[a].penalty_scale = std::min(demands_[a].penalty_scale * kPenaltyRaise, kMostPenalty);
+        if (round > 0)
+          for (double& b : tasks_[a].corridor.b) b -= std::min(missed, kClearanceRaise * length);
+        break;
+      case certify::Kind::speed:
+      case certify::Kind::reverse_speed:
+      case certify::Kind::acceleration:
+      case certify::Kind::lateral_acceleration:
+      case certify::Kind::curvature:
+      case certify::Kind::steering_rate:
+      case certify::Kind::gear:
+        demands_[a].penalty_scale = std::min(demands_[a].penalty_scale * kPenaltyRaise, kMostPenalty);
+        if (round > 0) demands_[a].tighten = std::min(demands_[a].tighten + kTightenRaise, kMostTighten);
+        break;
+      default:
+        net = true;
+    }
+  }
+  if (net) settings_.net_penalty *= 2.0, settings_.catch_penalty *= 2.0;
+}
+
+void NetSession::report(const char* stage, double fraction) const {
+  if (options_.progress) options_.progress({stage, fraction});
+}
+
+PlanResult NetSession::finish() {
+  if (result_.certified) {
+    result_.reason.clear();
+    result_.quality = measure(result_.plan);
+  } else if (deadline_.expired()) {
+    result_.reason = "no certified plan before the deadline";
+  } else if (!result_.certificate.violations.empty()) {
+    result_.reason = result_.certificate.violations.front().text;
+  }
+  result_.times.compute = watch_.seconds();
+  return std::move(result_);
+}
+
+}  // namespace seine::planner

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <vector>
+
+#include "seine/base/workers.hpp"
+#include "seine/planner/formation_fit.hpp"
+#include "seine/planner/net_question.hpp"
+#include "seine/planner/planner.hpp"
+#include "seine/trajopt/joint_problem.hpp"
+#include "seine/world/static_map.hpp"
+
+namespace seine::planner {
+
+/// One call of plan() for a team with a net: what is asked, a guess for the formation, one joint
+/// optimisation with a common timing, certificate, and repair of what the certificate refuses
+/// (docs/net-planning.md). Internal to the room.
+class NetSession {
+ public:
+  NetSession(const world::Scenario& scenario, const Options& options);
+  PlanResult run();
+
+ private:
+  bool guess(int attempt);
+  void prepare();
+  void solve(bool soft);
+  bool certify();
+  void polish();
+  void raise_demands(int round);
+  void report(const char* stage, double fraction) const;
+  PlanResult finish();
+
+  const world::Scenario& scenario_;
+  const Options& options_;
+  Stopwatch watch_;
+  Deadline deadline_;
+  Workers workers_;
+  world::StaticMap map_;
+  NetQuestion question_;
+  trajopt::Settings settings_;
+  FormationGuess guess_;
+  double tick_ = 0.05;  // s
+  std::vector<trajopt::RobotTask> tasks_;
+  std::vector<trajopt::Body> bodies_;  // moving obstacles
+  std::vector<double> extra_;          // m, robots × (robots + bodies)
+  std::vector<trajopt::Demand> demands_;
+  std::vector<double> x_;
+  PlanResult result_;
+};
+
+}  // namespace seine::planner

@@ -1,0 +1,41 @@
+#include "seine/search/formation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace seine::search {
+
+using geom::Pose2;
+using geom::Vec2;
+
+Pose2 formation_frame(const world::Scenario& scenario) {
+  Vec2 position, direction;
+  for (const world::Robot& robot : scenario.robots) {
+    position += robot.start.position();
+    direction += robot.start.direction();
+  }
+  position *= 1.0 / static_cast<double>(scenario.robots.size());
+  const bool undecided = geom::squared_norm(direction) < 1e-12;
+  return {position.x, position.y,
+          undecided ? scenario.robots.front().start.heading : std::atan2(direction.y, direction.x)};
+}
+
+Formation start_formation(const world::Scenario& scenario) {
+  const Vec2 frame = formation_frame(scenario).position();
+  Formation formation;
+  for (const world::Robot& robot : scenario.robots)
+    formation.offsets.push_back(robot.start.position() - frame);
+  return formation;
+}
+
+void attachments_at(const world::Scenario& scenario, const Formation& formation, const Pose2& frame,
+                    std::vector<Vec2>& out) {
+  const Vec2 d = frame.direction();
+  out.resize(formation.offsets.size());
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    const Vec2 at = scenario.net->attachments[k].at;
+    out[k] = frame.position() + formation.offsets[k] + Vec2{d.x * at.x - d.y * at.y, d.y * at.x + d.x * at.y};
+  }
+}
+
+}  // namespace seine::search

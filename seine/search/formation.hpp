@@ -1,0 +1,84 @@
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "seine/base/deadline.hpp"
+#include "seine/search/path.hpp"
+#include "seine/world/scenario.hpp"
+#include "seine/world/static_map.hpp"
+
+namespace seine::search {
+
+/// A team that moves as one: every car copies the way of a common frame, shifted by its own offset. Same
+/// heading, same curvature, same speed for all, so the way is exactly drivable and the net keeps its shape
+/// (docs/front-end-formation.md). The frame stands at the mean of the rear axles.
+struct Formation {
+  std::vector<geom::Vec2> offsets;  ///< of each car's rear axle from the frame, world axes, m
+};
+
+/// Somewhere the middle of the net has to be on its way, at a given time.
+struct Rendezvous {
+  geom::Vec2 point;
+  double reach = 0.25;  ///< m: how near the middle must pass
+  double time = 0.0;    ///< s, common clock
+};
+
+/// Where a formation's way may end.
+struct FormationGoal {
+  geom::Vec2 center;  ///< of the net's middle
+  double radius = 0.35;
+  std::optional<double> heading;  ///< rad
+  double heading_tolerance = 0.15;
+};
+
+struct FormationProblem {
+  const world::Scenario* scenario = nullptr;
+  const world::StaticMap* map = nullptr;   ///< what the cars keep clear of
+  const world::StaticMap* tall = nullptr;  ///< what the net must not hang over
+  geom::Pose2 start;                       ///< of the frame
+  double start_speed = 0.0;                ///< m/s, signed
+  Formation before, after;                 ///< held until the last rendezvous, and after it
+  std::vector<Rendezvous> meetings;        ///< in order of time
+  std::optional<FormationGoal> goal;       ///< absent: stop anywhere after the last rendezvous
+  Deadline deadline;
+};
+
+struct FormationSettings {
+  int max_expansions = 20000;
+  double heuristic_weight = 1.3;
+  bool forward = true, backward = true;  ///< gears it may drive in
+  bool field = false;  ///< distances to go around what is tall, instead of as the crow flies
+};
+
+/// A way of the frame, and where on it each rendezvous is passed.
+struct FormationPath {
+  Path path;
+  std::vector<double> meeting_s;  ///< m driven
+  int expansions = 0;
+};
+
+/// Hybrid A* over (x, y, θ, rendezvous passed) for the whole formation: every footprint keeps its distance to
+/// everything, the net to what is tall. The cost is time. Deterministic.
+std::optional<FormationPath> search_formation(const FormationProblem& problem,
+                                              const FormationSettings& settings);
+
+/// When the frame is where: as fast as the limits of all cars allow, but not before its time at a rendezvous;
+/// it drives slower rather than waits.
+struct FormationTiming {
+  std::vector<ProfileKnot> profile;
+  double slack = std::numeric_limits<double>::infinity();  ///< s: by how much the fastest passage would be
+                                                           ///< early at the tightest rendezvous; < 0: late
+};
+FormationTiming time_formation(const FormationPath& path, const FormationProblem& problem);
+
+/// Offsets of the cars as they stand at the start, and the frame there.
+geom::Pose2 formation_frame(const world::Scenario& scenario);
+Formation start_formation(const world::Scenario& scenario);
+/// Attachments of a formation whose frame is at `frame`.
+void attachments_at(const world::Scenario& scenario, const Formation& formation, const geom::Pose2& frame,
+                    std::vector<geom::Vec2>& out);
+
+}  // namespace seine::search

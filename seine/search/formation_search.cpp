@@ -1,0 +1,350 @@
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <unordered_map>
+
+#include "seine/search/cost_to_go.hpp"
+#include "seine/search/formation.hpp"
+#include "seine/search/point_distances.hpp"
+#include "seine/vehicle/arc.hpp"
+
+namespace seine::search {
+namespace {
+
+using geom::Pose2;
+using geom::Vec2;
+using vehicle::Arc;
+
+// Lengths in car lengths unless said otherwise; docs/front-end-formation.md has the measurements.
+constexpr double kStep = 0.8;
+constexpr int kChecks = 5;  // poses looked at in a step
+constexpr double kCell = 0.5;
+constexpr int kHeadings = 32;
+constexpr double kForwardTurns[] = {0.0, 0.22, -0.22, 0.5, -0.5, 0.88, -0.88};  // of κ_max
+constexpr double kBackwardTurns[] = {0.0, 0.5, -0.5, 0.88, -0.88};
+constexpr double kCarSlack = 0.05, kNetSlack = 0.05;       // on top of the margins
+constexpr double kCurvedPrice = 0.02;                      // share of a step's time
+constexpr double kSteeringPrice = 0.05, kGearPrice = 1.0;  // of v / a, s
+constexpr double kLateralShare = 0.8;
+constexpr double kStopShare = 0.6;  // of the acceleration limit, to stop after the last rendezvous
+
+struct Limits {
+  double speed, reverse_speed, acceleration, lateral, curvature, length;
+};
+
+// Of the whole team: everybody drives the same way.
+Limits limits_of(const world::Scenario& scenario) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Limits all{kInfinity, kInfinity, kInfinity, kInfinity, kInfinity, 0.0};
+  for (const world::Robot& robot : scenario.robots) {
+    const vehicle::Model& model = scenario.model_of(robot);
+    all.speed = std::min(all.speed, model.limits.speed);
+    all.reverse_speed = std::min(all.reverse_speed, model.limits.reverse_speed);
+    all.acceleration = std::min(all.acceleration, model.limits.acceleration);
+    all.lateral = std::min(all.lateral, model.limits.lateral_acceleration);
+    all.curvature = std::min(all.curvature, model.max_curvature());
+    all.length = std::max(all.length, model.length());
+  }
+  return all;
+}
+
+struct Node {
+  Pose2 pose;
+  Arc arc;  // that led here
+  double cost, estimate;
+  double after;  // m driven since the last rendezvous was passed
+  int parent;    // −1 at the root
+  int phase;     // rendezvous passed
+  bool checked = false, closed = false;
+};
+
+class Lattice {
+ public:
+  Lattice(const FormationProblem& problem, const FormationSettings& settings)
+      : p_(problem),
+        s_(settings),
+        scenario_(*problem.scenario),
+        limits_(limits_of(scenario_)),
+        step_(kStep * limits_.length),
+        cell_(kCell * limits_.length) {
+    const auto fan = [&](std::span<const double> turns, double distance) {
+      for (const double turn : turns) moves_.push_back({turn * limits_.curvature, distance});
+    };
+    if (s_.forward) fan(kForwardTurns, step_);
+    if (s_.backward && limits_.reverse_speed > 0.0) fan(kBackwardTurns, -step_);
+    legs_ahead();
+    if (s_.field) make_fields();
+  }
+
+  std::optional<FormationPath> run();
+
+ private:
+  struct Entry {
+    double estimate;
+    int node;
+    friend bool operator<(const Entry& a, const Entry& b) {
+      return a.estimate != b.estimate ? a.estimate > b.estimate : a.node > b.node;
+    }
+  };
+
+  int meetings() const { return static_cast<int>(p_.meetings.size()); }
+  Vec2 middle(const Pose2& pose, int phase);
+  const Formation& held(int phase) const { return phase < meetings() ? p_.before : p_.after; }
+  void legs_ahead();
+  void make_fields();
+  double ahead(const Pose2& pose, int phase);
+  double to(std::size_t place, Vec2 point);
+  double time_of(const Arc& arc, const Arc* before) const;
+  bool clear(const Pose2& pose, int phase);
+  bool drive_to(Node& node);
+  bool at_goal(const Node& node);
+  void add(int parent, const Arc& move);
+  std::uint64_t bin(const Node& node) const;
+  void push(int index) {
+    open_.push_back({node(index).estimate, index});
+    std::push_heap(open_.begin(), open_.end());
+  }
+  Node& node(int index) { return nodes_[static_cast<std::size_t>(index)]; }
+  FormationPath path_to(int index);
+
+  const FormationProblem& p_;
+  const FormationSettings& s_;
+  const world::Scenario& scenario_;
+  Limits limits_;
+  double step_, cell_;
+  std::vector<Arc> moves_;
+  std::vector<double> beyond_;  // per phase: m from the next place to the end of the way, at least
+  std::unique_ptr<PointDistances> distances_;
+  std::vector<std::unique_ptr<CostToGo>> fields_;  // to each rendezvous, then to the goal
+  std::vector<Node> nodes_;
+  std::vector<Entry> open_;
+  std::unordered_map<std::uint64_t, int> bins_;
+  std::vector<Vec2> polygon_, attachments_;
+};
+
+Vec2 Lattice::middle(const Pose2& pose, int phase) {
+  attachments_at(scenario_, held(phase), pose, attachments_);
+  Vec2 sum;
+  for (const Vec2 a : attachments_) sum += a;
+  return sum / static_cast<double>(attachments_.size());
+}
+
+void Lattice::legs_ahead() {
+  const auto count = p_.meetings.size();
+  beyond_.assign(count + 1, 0.0);
+  for (std::size_t i = count; i-- > 0;) {
+    const bool last = i + 1 == count;
+    if (last && !p_.goal) continue;
+    const Vec2 next = last ? p_.goal->center : p_.meetings[i + 1].point;
+    const double radius = last ? p_.goal->radius : p_.meetings[i + 1].reach;
+    beyond_[i] = beyond_[i + 1] +
+                 std::max(0.0, geom::norm(next - p_.meetings[i].point) - radius - p_.meetings[i].reach);
+  }
+}
+
+// A disc in the middle of the net, as large as the formation's polygon leaves room for, goes around what is
+// tall.
+void Lattice::make_fields() {
+  attachments_at(scenario_, p_.after, p_.start, attachments_);
+  const Vec2 center = middle(p_.start, meetings());
+  double radius = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < attachments_.size(); ++i) {
+    const Vec2 a = attachments_[i], b = attachments_[(i + 1) % attachments_.size()], e = b - a;
+    radius = std::min(radius, geom::cross(e, center - a) / geom::norm(e));
+  }
+  radius = std::max(0.8 * radius, 0.2 * limits_.length);
+  distances_ = std::make_unique<PointDistances>(*p_.tall, 0.5 * radius, 4.0 * radius);
+  const DiscWay way{.distances = distances_.get(), .radius = radius};
+  for (const Rendezvous& meeting : p_.meetings)
+    fields_.push_back(std::make_unique<CostToGo>(way, meeting.point));
+  if (p_.goal) fields_.push_back(std::make_unique<CostToGo>(way, p_.goal->center));
+}
+
+double Lattice::to(std::size_t place, Vec2 point) {
+  const bool goal = place == p_.meetings.size();
+  const Vec2 target = goal ? p_.goal->center : p_.meetings[place].point;
+  const double straight = geom::norm(point - target);
+  return fields_.empty() ? straight : std::max(straight, (*fields_[place])(point));
+}
+
+double Lattice::ahead(const Pose2& pose, int phase) {
+  const auto i = static_cast<std::size_t>(phase);
+  if (phase == meetings() && !p_.goal) return 0.0;
+  const double reach = phase == meetings() ? p_.goal->radius : p_.meetings[i].reach;
+  return (std::max(0.0, to(i, middle(pose, phase)) - reach) + beyond_[i]) / limits_.speed;
+}
+
+double Lattice::time_of(const Arc& arc, const Arc* before) const {
+  const double top = arc.distance > 0.0 ? limits_.speed : limits_.reverse_speed;
+  const double bend = std::abs(arc.curvature);
+  const double speed = bend > 0.0 ? std::min(top, std::sqrt(kLateralShare * limits_.lateral / bend)) : top;
+  const double unit = limits_.speed / limits_.acceleration;
+  double time = std::abs(arc.distance) / speed * (bend > 0.0 ? 1.0 + kCurvedPrice : 1.0);
+  if (before == nullptr) return time;
+  if (before->gear() != arc.gear())
+    time += kGearPrice * unit;
+  else if (before->curvature != arc.curvature)
+    time += kSteeringPrice * unit;
+  return time;
+}
+
+bool Lattice::clear(const Pose2& pose, int phase) {
+  const Formation& formation = held(phase);
+  const double clearance = scenario_.margins.obstacle + kCarSlack * limits_.length;
+  for (std::size_t k = 0; k < scenario_.robots.size(); ++k) {
+    const vehicle::Model& model = scenario_.model_of(scenario_.robots[k]);
+    const Vec2 at = pose.position() + formation.offsets[k];
+    polygon_.resize(model.footprint.size());
+    geom::place(model.footprint, {at.x, at.y, pose.heading}, polygon_);
+    if (!p_.map->clear(polygon_, clearance)) return false;
+  }
+  attachments_at(scenario_, formation, pose, attachments_);
+  return p_.tall->clear(attachments_, kNetSlack * limits_.length);
+}
+
+// Drives a node's last step pose by pose: clear all the way, and past which rendezvous?
+bool Lattice::drive_to(Node& here) {
+  const Node& from = node(here.parent);
+  for (int i = 1; i <= kChecks; ++i) {
+    const double distance = here.arc.distance * i / kChecks;
+    const Pose2 pose = vehicle::drive(from.pose, here.arc.curvature, distance);
+    if (!clear(pose, here.phase)) return false;
+    while (here.phase < meetings()) {
+      const Rendezvous& meeting = p_.meetings[static_cast<std::size_t>(here.phase)];
+      if (geom::norm(middle(pose, here.phase) - meeting.point) > meeting.reach) break;
+      ++here.phase;
+      here.after = -std::abs(distance);
+    }
+  }
+  here.after += std::abs(here.arc.distance);
+  return true;
+}
+
+bool Lattice::at_goal(const Node& here) {
+  if (here.phase < meetings()) return false;
+  if (!p_.goal) {
+    const double stop = limits_.speed * limits_.speed / (2.0 * kStopShare * limits_.acceleration);
+    return here.after >= stop;
+  }
+  if (geom::norm(middle(here.pose, here.phase) - p_.goal->center) > p_.goal->radius) return false;
+  return !p_.goal->heading ||
+         std::abs(geom::wrap_angle(here.pose.heading - *p_.goal->heading)) <= p_.goal->heading_tolerance;
+}
+
+std::uint64_t Lattice::bin(const Node& n) const {
+  const auto index = [](double value) {
+    return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(value)) + (1 << 20));
+  };
+  const double slice = 2.0 * std::numbers::pi / kHeadings;
+  const auto heading = static_cast<std::int64_t>(std::floor(n.pose.heading / slice + 0.5));
+  const std::int64_t turn = (heading % kHeadings + kHeadings) % kHeadings;
+  // Without a goal the way goes on after the last rendezvous until the team can stop.
+  const bool stopping = n.phase == meetings() && !p_.goal;
+  const auto phase = static_cast<std::uint64_t>(n.phase + (stopping ? static_cast<int>(n.after / step_) : 0));
+  return (index((n.pose.x - p_.start.x) / cell_ + 0.5) << 42) |
+         (index((n.pose.y - p_.start.y) / cell_ + 0.5) << 20) | phase << 8 |
+         static_cast<std::uint64_t>(2 * turn + (n.arc.gear() < 0 ? 1 : 0));
+}
+
+void Lattice::add(int index, const Arc& move) {
+  const Node& parent = node(index);
+  Node child{.pose = vehicle::drive(parent.pose, move),
+             .arc = move,
+             .cost = 0.0,
+             .estimate = 0.0,
+             .after = parent.after,
+             .parent = index,
+             .phase = parent.phase};
+  child.cost = parent.cost + time_of(move, parent.parent < 0 ? nullptr : &parent.arc);
+  const double left = std::max(
+      0.0, parent.estimate - parent.cost - s_.heuristic_weight * std::abs(move.distance) / limits_.speed);
+  child.estimate = child.cost + left;
+  nodes_.push_back(child);
+  push(static_cast<int>(nodes_.size()) - 1);
+}
+
+std::optional<FormationPath> Lattice::run() {
+  Node root{
+      .pose = p_.start, .arc = {}, .cost = 0.0, .estimate = 0.0, .after = 0.0, .parent = -1, .phase = 0};
+  root.checked = true;
+  root.estimate = s_.heuristic_weight * ahead(root.pose, 0);
+  if (!std::isfinite(root.estimate)) return std::nullopt;
+  nodes_.push_back(root);
+  push(0);
+  for (int expansions = 0; !open_.empty() && expansions < s_.max_expansions;) {
+    const Entry entry = open_.front();
+    std::pop_heap(open_.begin(), open_.end());
+    open_.pop_back();
+    if (node(entry.node).closed || node(entry.node).estimate != entry.estimate) continue;
+    if (!node(entry.node).checked) {
+      Node& here = node(entry.node);
+      const auto known = bins_.find(bin(here));
+      here.closed = (known != bins_.end() && node(known->second).cost <= here.cost) || !drive_to(here);
+      if (here.closed) continue;
+      const auto [in_bin, fresh] = bins_.try_emplace(bin(here), entry.node);
+      if (!fresh) {
+        if (node(in_bin->second).cost <= here.cost) {
+          here.closed = true;
+          continue;
+        }
+        node(in_bin->second).closed = true;
+        in_bin->second = entry.node;
+      }
+      here.checked = true;
+      here.estimate = here.cost + s_.heuristic_weight * ahead(here.pose, here.phase);
+      if (!std::isfinite(here.estimate)) continue;
+      if (!open_.empty() && here.estimate > open_.front().estimate) {
+        push(entry.node);
+        continue;
+      }
+    }
+    if (at_goal(node(entry.node))) return path_to(entry.node);
+    node(entry.node).closed = true;
+    if (++expansions % 64 == 0 && p_.deadline.expired()) break;
+    for (const Arc& move : moves_) add(entry.node, move);
+  }
+  return std::nullopt;
+}
+
+FormationPath Lattice::path_to(int index) {
+  FormationPath result;
+  result.expansions = static_cast<int>(nodes_.size());
+  std::vector<int> way;
+  for (int at = index; at >= 0; at = node(at).parent) way.push_back(at);
+  std::reverse(way.begin(), way.end());
+  auto& points = result.path.points;
+  const Arc* first = way.size() > 1 ? &node(way[1]).arc : nullptr;
+  points.push_back(
+      {0.0, p_.start, first != nullptr ? first->curvature : 0.0, first != nullptr ? first->gear() : 1});
+  double s = 0.0;
+  int phase = 0;
+  for (std::size_t i = 1; i < way.size(); ++i) {
+    const Arc& arc = node(way[i]).arc;
+    const Pose2 from = node(way[i - 1]).pose;
+    if (points.back().gear != arc.gear()) points.push_back({s, from, arc.curvature, arc.gear()});
+    points.back().curvature = arc.curvature;
+    for (int k = 1; k <= kChecks; ++k) {
+      const double distance = arc.distance * k / kChecks;
+      const Pose2 pose = vehicle::drive(from, arc.curvature, distance);
+      points.push_back({s + std::abs(distance), pose, arc.curvature, arc.gear()});
+      while (phase < meetings() &&
+             geom::norm(middle(pose, phase) - p_.meetings[static_cast<std::size_t>(phase)].point) <=
+                 p_.meetings[static_cast<std::size_t>(phase)].reach) {
+        result.meeting_s.push_back(s + std::abs(distance));
+        ++phase;
+      }
+    }
+    s += std::abs(arc.distance);
+  }
+  return result;
+}
+
+}  // namespace
+
+std::optional<FormationPath> search_formation(const FormationProblem& problem,
+                                              const FormationSettings& settings) {
+  return Lattice(problem, settings).run();
+}
+
+}  // namespace seine::search
