@@ -184,7 +184,7 @@ int find_model(const Scenario& scenario, const YamlMap& robot) {
              ", expected a model of 'models'" + did_you_mean(wanted, known));
 }
 
-world::Robot read_robot(const YamlValue& value, std::size_t index, const Scenario& scenario) {
+world::Robot read_robot(const YamlValue& value, std::size_t index, const Scenario& scenario, bool net) {
   const YamlMap map = value.map({"name", "model", "start", "goal"});
   world::Robot robot;
   const auto name = map.find("name");
@@ -197,28 +197,20 @@ world::Robot read_robot(const YamlValue& value, std::size_t index, const Scenari
   if (robot.start_speed > limits.speed || robot.start_speed < -limits.reverse_speed) {
     start.at("speed").fail("is beyond what the model can drive");
   }
-  if (!map.has("goal")) value.fail("has no 'goal', which is required for a team without a net");
-  robot.goal = read_pose(map.at("goal").map({"x", "y", "heading"}));
+  const auto goal = map.find("goal");
+  if (goal) robot.goal = read_pose(goal->map({"x", "y", "heading"}));
+  if (!goal && !net) value.fail("has no 'goal', which is required for a team without a net");
   return robot;
 }
 
-void read_robots(const YamlValue& value, Scenario& scenario) {
+/// @param net whether the team holds one: its robots may lack goals
+void read_robots(const YamlValue& value, Scenario& scenario, bool net) {
   std::unordered_set<std::string> names;
   for (const YamlValue& entry : value.list(1, ScenarioCaps::kRobots)) {
-    scenario.robots.push_back(read_robot(entry, scenario.robots.size(), scenario));
+    scenario.robots.push_back(read_robot(entry, scenario.robots.size(), scenario, net));
     const std::string& name = scenario.robots.back().name;
     if (!names.insert(name).second)
       entry.fail("is called '" + name + "' like another robot, expected distinct names");
-  }
-}
-
-void refuse_net(const YamlMap& top) {
-  for (const char* key : {"net", "targets", "payload", "delivery"}) {
-    if (const auto value = top.find(key)) {
-      value->fail(
-          "is not supported by this version, expected a team without a net (no net, targets, payload, "
-          "delivery)");
-    }
   }
 }
 
@@ -229,7 +221,6 @@ Scenario read_native(const YamlValue& root, const std::string& name, const std::
       {"seine", "name", "world", "models", "margins", "robots", "net", "targets", "payload", "delivery"});
   const YamlValue version = top.at("seine");
   if (version.integer(0, 1000000) != 1) version.fail("is a format this version cannot read, expected 1");
-  refuse_net(top);
   Scenario scenario;
   const auto given_name = top.find("name");
   scenario.name = given_name ? given_name->text() : name;
@@ -240,7 +231,8 @@ Scenario read_native(const YamlValue& root, const std::string& name, const std::
     scenario.margins.robot = map.number("robot", {0.0, 100.0}, scenario.margins.robot);
     scenario.margins.obstacle = map.number("obstacle", {0.0, 100.0}, scenario.margins.obstacle);
   }
-  read_robots(top.at("robots"), scenario);
+  read_robots(top.at("robots"), scenario, top.has("net"));
+  read_net_keys(top, scenario);
   return scenario;
 }
 

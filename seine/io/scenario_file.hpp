@@ -16,6 +16,8 @@ struct ScenarioCaps {
   static constexpr std::size_t kObstacles = 10000;
   static constexpr std::size_t kPolygonVertices = 5000;
   static constexpr std::size_t kVertices = 100000;  ///< of all obstacles and motions together
+  static constexpr std::size_t kNetCorners = 16;    ///< how it hangs is found by trying sets of corners
+  static constexpr std::size_t kTargets = 100;
 };
 
 /// Reads a scenario: Seine's own format (docs/scenario.md), a CL-MAPF instance [Wen22] or a TPCAP case [Li22]

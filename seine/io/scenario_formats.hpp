@@ -19,6 +19,9 @@ inline constexpr Range kAngle{-1e4, 1e4};
 world::Scenario read_native(const YamlValue& root, const std::string& name,
                             const std::filesystem::path& folder);
 
+/// Its keys `net`, `targets`, `payload` and `delivery`; the robots have been read already.
+void read_net_keys(const YamlMap& top, world::Scenario& scenario);
+
 /// A CL-MAPF instance [Wen22]: car and obstacle radius built in, yaw clockwise in the file.
 world::Scenario read_clmapf(const YamlValue& root, const std::string& name);
 

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "seine/io/file_bytes.hpp"
 #include "seine/io/map_file.hpp"
 #include "seine/io/message.hpp"
@@ -89,6 +91,71 @@ std::string robot_text(const world::Scenario& scenario, const world::Robot& robo
                 pose_text(robot.start), speed, "}", goal, "}\n");
 }
 
+std::string vector_text(geom::Vec3 v) {
+  return joined("[", number_text(v.x), ", ", number_text(v.y), ", ", number_text(v.z), "]");
+}
+
+std::string attachment_text(const net::Attachment& a) {
+  return joined("{x: ", number_text(a.at.x), ", y: ", number_text(a.at.y), ", z: ", number_text(a.height),
+                "}");
+}
+
+std::string net_text(const net::Net& net) {
+  const auto same = [&](const net::Attachment& a) {
+    return a.at == net.attachments[0].at && a.height == net.attachments[0].height;
+  };
+  std::string attachments;
+  if (std::all_of(net.attachments.begin(), net.attachments.end(), same)) {
+    attachments = attachment_text(net.attachments[0]);
+  } else {
+    for (const net::Attachment& a : net.attachments)
+      attachments += (attachments.empty() ? "[" : ", ") + attachment_text(a);
+    attachments += "]";
+  }
+  return joined("net:\n  rest: ", polygon_text(net.rest), "\n  attachment: ", attachments,
+                "\n  stretch: ", number_text(net.stretch), "\n  clearance: ", number_text(net.clearance),
+                "\n  rebound: ", number_text(net.rebound), "\n");
+}
+
+std::string covariance_text(const net::Target& target) {
+  std::string out;
+  for (const auto& row : target.covariance) {
+    std::string line;
+    for (const double entry : row) line += (line.empty() ? "[" : ", ") + number_text(entry);
+    out += (out.empty() ? "[" : ", ") + line + "]";
+  }
+  return out + "]";
+}
+
+std::string target_text(const net::Target& target) {
+  std::string out =
+      joined("  - {time: ", number_text(target.time), ", position: ", vector_text(target.position),
+             ", velocity: ", vector_text(target.velocity), ", radius: ", number_text(target.radius),
+             ", mass: ", number_text(target.mass));
+  if (target.drag != 0.0) out += joined(", drag: ", number_text(target.drag));
+  if (target.covariance != decltype(target.covariance){})
+    out += joined(", covariance: ", covariance_text(target));
+  return out + "}\n";
+}
+
+std::string net_keys_text(const world::Scenario& scenario) {
+  std::string out;
+  if (scenario.net) out += net_text(*scenario.net);
+  if (!scenario.targets.empty()) out += "targets:\n";
+  for (const net::Target& target : scenario.targets) out += target_text(target);
+  if (const auto& payload = scenario.payload) {
+    out += joined("payload: {radius: ", number_text(payload->radius), ", mass: ", number_text(payload->mass),
+                  "}\n");
+  }
+  if (const auto& delivery = scenario.delivery) {
+    out += joined("delivery: {center: ", point_text(delivery->center),
+                  ", radius: ", number_text(delivery->radius));
+    if (delivery->heading) out += joined(", heading: ", number_text(*delivery->heading));
+    out += "}\n";
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string scenario_text(const world::Scenario& scenario, const std::string& map_file) {
@@ -105,7 +172,7 @@ std::string scenario_text(const world::Scenario& scenario, const std::string& ma
   out += joined("margins: {robot: ", number_text(scenario.margins.robot),
                 ", obstacle: ", number_text(scenario.margins.obstacle), "}\nrobots:\n");
   for (const world::Robot& robot : scenario.robots) out += robot_text(scenario, robot);
-  return out;
+  return out + net_keys_text(scenario);
 }
 
 void save_scenario(const world::Scenario& scenario, const std::filesystem::path& path) {

@@ -8,6 +8,9 @@
 
 namespace seine::net {
 
+/// m: how far the corners next to a ring edge stay on its inner side, so that the ring is never twisted.
+inline constexpr double kConvexMargin = 0.05;
+
 /// |r_i − r_j|, m: how far the cloth reaches between two corners when it lies flat.
 double rest_distance(const Net& net, std::size_t i, std::size_t j);
 

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "seine/base/error.hpp"
+#include "seine/io/test/equal.hpp"
 #include "seine/world/check.hpp"
 
 namespace seine::io {
@@ -37,59 +38,6 @@ std::string complaint_about(const std::string& text, const std::string& file = "
     return error.what();
   }
   return "";
-}
-
-void expect_equal(const Scenario& a, const Scenario& b) {
-  EXPECT_EQ(a.name, b.name);
-  EXPECT_EQ(a.bounds.low, b.bounds.low);
-  EXPECT_EQ(a.bounds.high, b.bounds.high);
-  ASSERT_EQ(a.map.has_value(), b.map.has_value());
-  if (a.map) {
-    EXPECT_EQ(a.map->occupied, b.map->occupied);
-    EXPECT_EQ(a.map->origin, b.map->origin);
-    EXPECT_EQ(a.map->resolution, b.map->resolution);
-  }
-  EXPECT_EQ(a.margins.robot, b.margins.robot);
-  EXPECT_EQ(a.margins.obstacle, b.margins.obstacle);
-  ASSERT_EQ(a.models.size(), b.models.size());
-  for (std::size_t i = 0; i < a.models.size(); ++i) {
-    const vehicle::Model &m = a.models[i], &n = b.models[i];
-    EXPECT_EQ(m.name, n.name);
-    EXPECT_EQ(m.footprint, n.footprint);
-    EXPECT_EQ(m.wheelbase, n.wheelbase);
-    EXPECT_EQ(m.limits.speed, n.limits.speed);
-    EXPECT_EQ(m.limits.reverse_speed, n.limits.reverse_speed);
-    EXPECT_EQ(m.limits.acceleration, n.limits.acceleration);
-    EXPECT_EQ(m.limits.lateral_acceleration, n.limits.lateral_acceleration);
-    EXPECT_EQ(m.limits.steering, n.limits.steering);
-    EXPECT_EQ(m.limits.steering_rate, n.limits.steering_rate);
-  }
-  ASSERT_EQ(a.robots.size(), b.robots.size());
-  for (std::size_t i = 0; i < a.robots.size(); ++i) {
-    EXPECT_EQ(a.robots[i].name, b.robots[i].name);
-    EXPECT_EQ(a.robots[i].model, b.robots[i].model);
-    EXPECT_EQ(a.robots[i].start, b.robots[i].start);
-    EXPECT_EQ(a.robots[i].goal, b.robots[i].goal);
-    EXPECT_EQ(a.robots[i].start_speed, b.robots[i].start_speed);
-  }
-  ASSERT_EQ(a.obstacles.size(), b.obstacles.size());
-  for (std::size_t i = 0; i < a.obstacles.size(); ++i) {
-    const world::Obstacle &o = a.obstacles[i], &p = b.obstacles[i];
-    EXPECT_EQ(o.name, p.name);
-    EXPECT_EQ(o.height, p.height);
-    ASSERT_EQ(o.shape.index(), p.shape.index());
-    if (const auto* circle = std::get_if<world::Circle>(&o.shape)) {
-      EXPECT_EQ(circle->center, std::get<world::Circle>(p.shape).center);
-      EXPECT_EQ(circle->radius, std::get<world::Circle>(p.shape).radius);
-    } else {
-      EXPECT_EQ(std::get<0>(o.shape), std::get<0>(p.shape));
-    }
-    ASSERT_EQ(o.motion.size(), p.motion.size());
-    for (std::size_t j = 0; j < o.motion.size(); ++j) {
-      EXPECT_EQ(o.motion[j].t, p.motion[j].t);
-      EXPECT_EQ(o.motion[j].pose, p.motion[j].pose);
-    }
-  }
 }
 
 TEST(ScenarioFile, DefaultsAreTheDocumentedOnes) {
@@ -217,10 +165,6 @@ TEST(ScenarioFile, NamesThePlaceOfEveryMistake) {
        "team.yaml:5: 'name' of entry 1 of 'robots' is a list, expected a text"},
       {"- {start", "- {model: truck, start",
        "team.yaml:5: 'model' of entry 1 of 'robots' is 'truck', expected a model of 'models'"},
-      {"world:", "delivery: {}\nworld:",
-       "team.yaml:2: 'delivery' is not supported by this version, expected a team without a net (no net, "
-       "targets, "
-       "payload, delivery)"},
       {"world:", "models: {default: {footprint: {polygon: [[0,0],[1,0],[0.2,0.2],[0,1]]}}}\nworld:",
        "team.yaml:2: 'polygon' of 'footprint' of 'default' of 'models' is not convex, expected a convex "
        "polygon"},
