@@ -7,6 +7,7 @@
 #include "seine/certify/chart.hpp"
 #include "seine/certify/clearance.hpp"
 #include "seine/certify/form.hpp"
+#include "seine/certify/net_proof.hpp"
 
 namespace seine::certify {
 namespace {
@@ -32,6 +33,8 @@ std::vector<Finding> malformations(const Context& context, const traj::TeamTraje
                         std::abs(value - limit)});
     return findings;
   }
+  if (const std::string why = why_no_net(context.scenario); !why.empty())
+    findings.push_back({{Kind::malformed, 0.0, -1, -1, 0.0, 0.0, why}, 1.0});
   for (std::size_t k = 0; k < wanted; ++k) {
     const std::string why = why_malformed(plan.robots[k]);
     if (why.empty()) continue;
@@ -43,8 +46,9 @@ std::vector<Finding> malformations(const Context& context, const traj::TeamTraje
   return findings;
 }
 
-double horizon_of(const world::Scenario& scenario, const traj::TeamTrajectory& plan) {
+double horizon_of(const world::Scenario& scenario, const traj::TeamTrajectory& plan, const Phases& phases) {
   double horizon = plan.makespan();
+  if (!phases.catches.empty()) horizon = std::max(horizon, phases.last_catch() + net::kHoldTime);
   for (const world::Obstacle& obstacle : scenario.obstacles) {
     if (!obstacle.motion.empty()) horizon = std::max(horizon, obstacle.motion.back().t);
   }
@@ -62,10 +66,17 @@ double shortest_car(const world::Scenario& scenario) {
 class Proof {
  public:
   Proof(Context& context, const traj::TeamTrajectory& plan, Workers& workers)
-      : context_(context), plan_(plan), workers_(workers), count_(static_cast<int>(plan.robots.size())) {}
+      : context_(context),
+        plan_(plan),
+        workers_(workers),
+        count_(static_cast<int>(plan.robots.size())),
+        with_net_(context.scenario.net.has_value()) {}
 
   std::vector<Finding> run(Certificate& certificate) {
-    scene_.horizon = horizon_of(context_.scenario, plan_);
+    if (with_net_) crossings_ = crossings_of(context_.scenario);
+    const Phases phases = phases_of(context_.scenario, crossings_);
+    context_.braking_from = phases.first_catch();
+    scene_.horizon = horizon_of(context_.scenario, plan_, phases);
     chart_robots();
     chart_obstacles();
     cut_into_slabs();
@@ -121,7 +132,12 @@ class Proof {
   void prove_clearances_of_all(Certificate& certificate) {
     const double glimpsed = glimpse(scene_);
     std::vector<Clearances> found(plan_.robots.size());
-    workers_.run(count_, [&](int k) {
+    NetVerdict net;
+    workers_.run(count_ + (with_net_ ? 1 : 0), [&](int k) {
+      if (k == count_) {
+        net = verdict_on_net();
+        return;
+      }
       if (context_.out_of_time() || !charts_[static_cast<std::size_t>(k)].complete) return;
       found[static_cast<std::size_t>(k)] = prove_clearances(context_, scene_, k, glimpsed);
     });
@@ -130,12 +146,24 @@ class Proof {
       if (one.robots.clearance < certificate.robots.clearance) certificate.robots = one.robots;
       if (one.obstacles.clearance < certificate.obstacles.clearance) certificate.obstacles = one.obstacles;
     }
+    append(findings_, std::move(net.findings));
+    certificate.net = net.room;
+    certificate.catches = std::move(net.catches);
+  }
+
+  /// Only where every car has a chart; where one has none, its findings say so.
+  NetVerdict verdict_on_net() {
+    const bool all = std::all_of(charts_.begin(), charts_.end(), [](const Chart& c) { return c.complete; });
+    if (!all || context_.out_of_time()) return {};
+    return prove_net(context_, scene_, plan_, crossings_);
   }
 
   Context& context_;
   const traj::TeamTrajectory& plan_;
   Workers& workers_;
   int count_;
+  bool with_net_;
+  std::vector<std::optional<net::Crossing>> crossings_;  // of the targets with the rim plane
   std::vector<Chart> charts_;
   std::vector<std::vector<geom::Convex>> parts_;  // owns the shapes of the moving obstacles
   Scene scene_;

@@ -5,11 +5,17 @@
 #include <vector>
 
 #include "seine/base/deadline.hpp"
+#include "seine/net/catch_rules.hpp"
 #include "seine/traj/trajectory.hpp"
 #include "seine/world/scenario.hpp"
 #include "seine/world/static_map.hpp"
 
 namespace seine::certify {
+
+/// Every attachment stays this far, m, inside the lines through the ring edges next to its own.
+inline constexpr double kConvexMargin = 0.05;
+/// Cars of a team that delivers with a heading end within this of it, rad.
+inline constexpr double kDeliveryHeading = 0.1;
 
 /// What a plan can break.
 enum class Kind {
@@ -29,7 +35,15 @@ enum class Kind {
   obstacle_clearance,
   moving_obstacle_clearance,
   bounds,
-  undecided,  ///< the proof ran out of its deadline or its depth: counted as broken
+  net_stretch,   ///< two attachments are further apart than the cloth allows
+  net_topology,  ///< the ring is not convex and counter-clockwise with its margin
+  net_opening,   ///< soon after a catch the net is not wide open
+  net_drag,      ///< the net's lowest point comes too near the ground
+  net_obstacle,  ///< something too tall to pass under lies inside the net
+  target_catch,  ///< a target misses the net, or the net cannot hold it ("catch")
+  braking,       ///< a car brakes or accelerates too hard for what lies in the net
+  delivery,      ///< the team does not come to rest where it must
+  undecided,     ///< the proof ran out of its deadline or its depth: counted as broken
 };
 const char* name_of(Kind kind);
 
@@ -51,13 +65,25 @@ struct Closest {
   int other = -1;
 };
 
+/// What is left of a net's limits where least is left; below 0 where they are broken.
+struct NetRoom {
+  Closest stretch;    ///< m, of a pair's largest distance (resolved to 5 mm)
+  Closest convexity;  ///< m, of an attachment's distance inside a ring edge, beyond kConvexMargin (5 mm)
+  Closest ground;     ///< m, of the lowest point's height, beyond the net's clearance (1 cm)
+  /// m, to obstacles: the distance beside them, or the height above them beyond the net's clearance, whatever
+  /// is larger (1 cm, searched up to 0.2 m)
+  Closest obstacles;
+};
+
 /// The verdict on one plan.
 struct Certificate {
   bool holds = false;
   std::vector<Violation> violations;  ///< the worst of each kind and robot (or pair), by time
   Closest robots;                     ///< footprint to footprint (resolved to 1 mm)
-  Closest obstacles;     ///< footprint to static and moving obstacles and bounds (searched up to 1 m)
-  double seconds = 0.0;  ///< wall time of the proof
+  Closest obstacles;  ///< footprint to static and moving obstacles and bounds (searched up to 1 m)
+  NetRoom net;        ///< infinite without a net
+  std::vector<net::Catch> catches;  ///< one a target, in their order; NaN where it is never in reach
+  double seconds = 0.0;             ///< wall time of the proof
 };
 
 struct Options {

@@ -57,6 +57,11 @@ class Charter {
         limits_(context, robot) {
     mover().core = model_.footprint;
     mover().reach = model_.reach();
+    // The attachment's acceleration is bounded with that of the footprint.
+    if (context.scenario.net) {
+      const geom::Vec2 held = context.scenario.net->attachments[static_cast<std::size_t>(robot)].at;
+      mover().reach = std::max(mover().reach, geom::norm(held));
+    }
   }
 
   void run(const traj::RobotTrajectory& trajectory, double horizon) {

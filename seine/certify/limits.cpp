@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "seine/certify/tolerances.hpp"
+#include "seine/net/catch_rules.hpp"
 
 namespace seine::certify {
 namespace {
@@ -14,7 +15,7 @@ constexpr int kMostSteps = 1 << 18;  // of one car; sane plans need some hundred
 // A value met beyond the limit is followed up until nothing in its cell is this much worse, relative to the
 // limit.
 constexpr double kWorstResolution = 1e-3;
-enum RuleIndex : std::size_t { kForward, kReverse, kBackwards };
+enum RuleIndex : std::size_t { kForward, kReverse, kBackwards, kTangential, kBraking = 7 };
 
 const char* describe(Kind kind) {
   switch (kind) {
@@ -24,6 +25,8 @@ const char* describe(Kind kind) {
       return "drives backwards at %.6g m/s; its limit is %.6g";
     case Kind::acceleration:
       return "accelerates or brakes by %.6g m/s²; its limit is %.6g";
+    case Kind::braking:
+      return "accelerates or brakes by %.6g m/s² with something in the net; %.6g is allowed";
     case Kind::lateral_acceleration:
       return "has a lateral acceleration of %.6g m/s²; its limit is %.6g";
     case Kind::curvature:
@@ -59,7 +62,8 @@ LimitProof::LimitProof(Context& context, int robot) : context_(context), robot_(
             rule(Kind::acceleration, tangential, limits.acceleration),
             rule(Kind::lateral_acceleration, lateral, limits.lateral_acceleration),
             rule(Kind::curvature, curvature, model.max_curvature()),
-            rule(Kind::steering_rate, steering_rate, limits.steering_rate)};
+            rule(Kind::steering_rate, steering_rate, limits.steering_rate),
+            rule(Kind::braking, tangential, net::kBraking)};
   rules_[kBackwards].sign = -1.0;
   rules_[kBackwards].seen = tolerance::kBackwardsSeen;
   rules_[kBackwards].proved = tolerance::kSpeed;
@@ -77,12 +81,22 @@ void LimitProof::check(const Stretch& stretch, const Sample& a, const Sample& b,
     rules_[r].worst = 0.0;
     if (!std::isinf(rules_[r].limit)) mask |= 1u << r;
   }
+  mask &= ~(1u << kBraking);
   mask &= ~(1u << (stretch.gear > 0.0 ? kReverse : kForward));
   if (forwards) mask &= ~(1u << kBackwards);
   cell_begin_ = stretch.clock(a.w);
   cell_end_ = stretch.clock(b.w);
   mask = unproved(mask, stretch, a, b, bends);
   if (mask != 0) refine(mask, stretch, a, b, 0);
+  const bool harder = rules_[kTangential].limit > rules_[kBraking].limit;
+  if (harder && cell_end_ > context_.braking_from) check_braking(stretch, a, b, bends);
+}
+
+void LimitProof::check_braking(const Stretch& stretch, const Sample& a, const Sample& b, const Bends& bends) {
+  const Mask only = 1u << kBraking;
+  const bool cut = context_.braking_from > cell_begin_;
+  const Sample from = cut ? stretch.sample(stretch.local(context_.braking_from), wheelbase_) : a;
+  if (unproved(only, stretch, from, b, bends) != 0) refine(only, stretch, from, b, 0);
 }
 
 LimitProof::Mask LimitProof::unproved(Mask mask, const Stretch& stretch, const Sample& a, const Sample& b,

@@ -33,10 +33,12 @@ class LimitProof {
     Episodes episodes;
   };
   using Mask = unsigned;
-  static constexpr std::size_t kRules = 7;
+  static constexpr std::size_t kRules = 8;
 
   static Rule rule(Kind kind, Quantity quantity, double limit);
   static double measure(const Rule& rule, const Sample& sample);
+  /// The limit that holds from the first catch on, on what lies after it of a cell.
+  void check_braking(const Stretch& stretch, const Sample& a, const Sample& b, const Bends& bends);
   /// Of the rules in `mask`, those not proved on the cell.
   Mask unproved(Mask mask, const Stretch& stretch, const Sample& a, const Sample& b, const Bends& bends);
   void refine(Mask mask, const Stretch& stretch, const Sample& a, const Sample& b, int depth);

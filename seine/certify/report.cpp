@@ -41,6 +41,22 @@ const char* name_of(Kind kind) {
       return "moving_obstacle_clearance";
     case Kind::bounds:
       return "bounds";
+    case Kind::net_stretch:
+      return "net_stretch";
+    case Kind::net_topology:
+      return "net_topology";
+    case Kind::net_opening:
+      return "net_opening";
+    case Kind::net_drag:
+      return "net_drag";
+    case Kind::net_obstacle:
+      return "net_obstacle";
+    case Kind::target_catch:
+      return "catch";
+    case Kind::braking:
+      return "braking";
+    case Kind::delivery:
+      return "delivery";
     case Kind::undecided:
       return "undecided";
   }
@@ -68,6 +84,15 @@ std::string Context::robot_name(int robot) const {
 std::string Context::obstacle_name(int obstacle) const {
   const std::string& name = scenario.obstacles[static_cast<std::size_t>(obstacle)].name;
   return name.empty() ? "obstacle " + std::to_string(obstacle + 1) : name;
+}
+
+std::string Context::target_name(int target) const {
+  return scenario.targets.size() == 1 ? "the target" : "target " + std::to_string(target + 1);
+}
+
+double Context::height_of(int obstacle) const {
+  return obstacle < 0 ? std::numeric_limits<double>::infinity()
+                      : scenario.obstacles[static_cast<std::size_t>(obstacle)].height;
 }
 
 std::string format(const char* pattern, ...) {

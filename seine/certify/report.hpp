@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,7 @@ struct Context {
   const world::Scenario& scenario;
   const world::StaticMap& map;
   const Options& options;
+  double braking_from = std::numeric_limits<double>::infinity();  ///< s, the first catch
   std::atomic<bool> expired{false};
 
   /// True once the deadline has passed; looks at the clock.
@@ -47,6 +49,9 @@ struct Context {
   }
   std::string robot_name(int robot) const;
   std::string obstacle_name(int obstacle) const;
+  std::string target_name(int target) const;
+  /// Of an obstacle, m; of the map's cells (−1) infinite.
+  double height_of(int obstacle) const;
 };
 
 /// printf into a string.

@@ -20,11 +20,19 @@ inline constexpr double kLimitSeen = 5e-7, kLimitProved = 1e-6;             // r
 inline constexpr double kLimitSeenFloor = 5e-10, kLimitProvedFloor = 1e-9;  // absolute, units of the quantity
 inline constexpr double kBackwardsSeen = 0.95e-3;              // m/s, against the gear; proved to kSpeed
 inline constexpr double kGapSeen = 1.5e-4, kGapProved = 2e-4;  // m, below the margin
+inline constexpr double kNetSeen = 5e-5, kNetProved = 1e-4;    // m, and of the opening of the net
 }  // namespace tolerance
 
 /// The closest approach is found to within this, m.
 inline constexpr double kClosestResolution = 1e-3;
 /// Obstacles further than this are not looked for, m.
 inline constexpr double kObstacleSearch = 1.0;
+
+/// What is left of the net's size and shape is found to within this, m.
+inline constexpr double kNetResolution = 5e-3;
+/// What is left of its height, and of its distance to obstacles, m …
+inline constexpr double kHeightResolution = 1e-2;
+/// … of which those further than this from its polygon are not looked for, m.
+inline constexpr double kNetSearch = 0.2;
 
 }  // namespace seine::certify

@@ -21,6 +21,7 @@ std::string report_json(const world::Scenario& scenario, const planner::PlanResu
     object.add("distance_m", result.quality.distance);
     object.add("acceleration_cost", result.quality.acceleration_cost);
     add_clearances(result.certificate, object);
+    add_catches(result.certificate, object);
   }
   return object.lines() + "\n";
 }
@@ -32,6 +33,7 @@ std::string report_json(const world::Scenario& scenario, const certify::Certific
   object.add("robots", static_cast<int>(scenario.robots.size()));
   object.add("certify_s", certificate.seconds);
   add_clearances(certificate, object);
+  add_catches(certificate, object);
   object.add_raw("violations", violations_json(scenario, certificate));
   return object.lines() + "\n";
 }

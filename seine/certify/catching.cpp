@@ -1,0 +1,158 @@
+#include "seine/certify/catching.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "seine/certify/tolerances.hpp"
+#include "seine/geom/convex.hpp"
+
+namespace seine::certify {
+
+using geom::Vec2;
+
+std::vector<std::optional<net::Crossing>> crossings_of(const world::Scenario& scenario) {
+  std::vector<std::optional<net::Crossing>> crossings;
+  for (const net::Target& target : scenario.targets)
+    crossings.push_back(net::Flight(target).crossing(scenario.net->rim()));
+  return crossings;
+}
+
+Phases phases_of(const world::Scenario& scenario,
+                 const std::vector<std::optional<net::Crossing>>& crossings) {
+  Phases phases;
+  for (const auto& crossing : crossings) {
+    if (crossing && crossing->state.time >= 0.0) phases.catches.push_back(crossing->state.time);
+  }
+  phases.loaded = scenario.payload ? 0.0 : phases.first_catch();
+  return phases;
+}
+
+std::vector<net::Catch> CatchCheck::run(const std::vector<std::optional<net::Crossing>>& crossings) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  std::vector<net::Catch> catches;
+  for (std::size_t i = 0; i < crossings.size(); ++i) {
+    catches.push_back({kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone});
+    const std::string name = context_.target_name(static_cast<int>(i));
+    if (!crossings[i]) {
+      note(i, 0.0, 0.0, net_.rim(), 1.0, name + " never falls through the rim of the net");
+      continue;
+    }
+    const double time = crossings[i]->state.time;
+    if (time < 0.0) {
+      note(i, 0.0, time, 0.0, -time,
+           format("%s has fallen below the rim of the net at t = %.4f s, before the plan begins",
+                  name.c_str(), time));
+      continue;
+    }
+    look_at_team(time);
+    catches.back() =
+        net::measure_catch(net_, context_.scenario.targets[i], *crossings[i], attachments_, velocity_);
+    judge(i, catches.back());
+  }
+  return catches;
+}
+
+void CatchCheck::look_at_team(double t) {
+  attachments_.clear();
+  velocity_ = {};
+  for (std::size_t k = 0; k < plan_.robots.size(); ++k) {
+    const traj::State state = plan_.robots[k].at(t);
+    const Vec2 at = state.pose * net_.attachments[k].at;
+    const double turn = state.speed * state.curvature;  // rad/s
+    attachments_.push_back(at);
+    velocity_ += state.speed * state.pose.direction() + turn * geom::left_normal(at - state.pose.position());
+  }
+  velocity_ = velocity_ / static_cast<double>(plan_.robots.size());
+}
+
+double CatchCheck::highest_under(double t) const {
+  double highest = 0.0;
+  const auto consider = [&](std::span<const Vec2> core, double radius, double height) {
+    if (std::isinf(height) || height <= highest) return;  // what is too tall is not passed over
+    if (geom::separation(std::span<const Vec2>(attachments_), core).distance < radius) highest = height;
+  };
+  context_.map.for_each_near(geom::bounding_box(attachments_), [&](const world::StaticMap::Piece& piece) {
+    consider(piece.shape.core, piece.shape.radius, context_.height_of(piece.obstacle));
+  });
+  std::vector<Vec2> core;
+  for (const MovingPart& part : scene_.moving) {
+    const auto& cells = part.mover.cells;
+    std::size_t c = 0;
+    while (c + 1 < cells.size() && cells[c].t1 < t) ++c;
+    core.resize(part.mover.core.size());
+    part.mover.place(cells[c], t, core);
+    consider(core, part.mover.radius, context_.height_of(part.obstacle));
+  }
+  return highest;
+}
+
+void CatchCheck::judge(std::size_t target, const net::Catch& c) {
+  const net::Net& net = net_;
+  const net::Target& falling = context_.scenario.targets[target];
+  struct Rule {
+    double value, limit, tolerance;
+    bool at_least;
+    const char* what;
+  };
+  const double fastest = net::speed_limit(c.depth, falling.radius, net.rebound);
+  const double lowest = net.clearance + highest_under(c.time);
+  const Rule rules[] = {
+      {c.rim_margin, net::kRimMargin, tolerance::kNetProved, true, "%.4f m inside the rim (%.4f required)"},
+      {c.contact_margin, net::kContactMargin, tolerance::kNetProved, true,
+       "%.4f m inside where it meets the net (%.4f required)"},
+      {c.opening, net::kLeastOpening, tolerance::kNetProved, true, "a net open to %.4f (%.4f required)"},
+      {c.angle, net::kMaxAngle, tolerance::kStartHeading, false, "%.4f rad from vertical (%.4f allowed)"},
+      {c.speed, fastest, tolerance::kSpeed, false, "%.4f m/s relative to the net (%.4f allowed)"},
+      {c.bottom, lowest, tolerance::kNetProved, true,
+       "%.4f m above the ground at the deepest (%.4f required)"}};
+  std::string all;
+  const Rule* first = nullptr;
+  double excess = 0.0;
+  for (const Rule& rule : rules) {
+    const double over = rule.at_least ? rule.limit - rule.value : rule.value - rule.limit;
+    if (over <= rule.tolerance) continue;
+    if (first == nullptr) first = &rule;
+    excess += std::isfinite(over) ? over : 1.0;
+    char text[128];
+    std::snprintf(text, sizeof text, rule.what, rule.value, rule.limit);
+    all += (all.empty() ? "" : ", ") + std::string(text);
+  }
+  if (first == nullptr) return;
+  note(target, c.time, first->value, first->limit, excess,
+       format("%s at t = %.4f s: ", context_.target_name(static_cast<int>(target)).c_str(), c.time) + all);
+}
+
+void CatchCheck::note(std::size_t target, double time, double value, double limit, double excess,
+                      const std::string& what) {
+  findings_.push_back({{Kind::target_catch, time, -1, static_cast<int>(target), value, limit, what}, excess});
+}
+
+std::vector<Finding> check_delivery(const Context& context, const traj::TeamTrajectory& plan) {
+  std::vector<Finding> findings;
+  if (!context.scenario.delivery) return findings;
+  const net::Delivery& delivery = *context.scenario.delivery;
+  Vec2 mean;
+  for (std::size_t k = 0; k < plan.robots.size(); ++k) {
+    const double arrival = plan.robots[k].arrival();
+    const geom::Pose2 end = plan.robots[k].at(arrival).pose;
+    mean += end * context.scenario.net->attachments[k].at;
+    if (!delivery.heading) continue;
+    const double off = std::abs(geom::wrap_angle(end.heading - *delivery.heading));
+    if (off <= kDeliveryHeading + tolerance::kStartHeading) continue;
+    findings.push_back({{Kind::delivery, arrival, static_cast<int>(k), -1, off, kDeliveryHeading,
+                         format("%s ends %.4f rad off the heading of the delivery; %.4f rad is allowed",
+                                context.robot_name(static_cast<int>(k)).c_str(), off, kDeliveryHeading)},
+                        off - kDeliveryHeading});
+  }
+  mean = mean / static_cast<double>(plan.robots.size());
+  const double off = geom::norm(mean - delivery.center), time = plan.makespan();
+  if (off <= delivery.radius + tolerance::kNetProved) return findings;
+  findings.push_back(
+      {{Kind::delivery, time, -1, -1, off, delivery.radius,
+        format("the net comes to rest %.4f m from the delivery; %.4f m is allowed", off, delivery.radius)},
+       off - delivery.radius});
+  return findings;
+}
+
+}  // namespace seine::certify

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "seine/certify/clearance.hpp"
+#include "seine/certify/formation.hpp"
+#include "seine/certify/report.hpp"
+#include "seine/net/catch_rules.hpp"
+#include "seine/net/flight.hpp"
+#include "seine/traj/trajectory.hpp"
+
+namespace seine::certify {
+
+/// Where each target falls through the rim plane, in their order; none where it never does.
+std::vector<std::optional<net::Crossing>> crossings_of(const world::Scenario& scenario);
+
+/// From when on something lies in the net: at once with a payload, else from the first catch on. Targets that
+/// are never caught count for nothing here.
+Phases phases_of(const world::Scenario& scenario, const std::vector<std::optional<net::Crossing>>& crossings);
+
+/// Every target against the rules of a physical catch.
+class CatchCheck {
+ public:
+  CatchCheck(Context& context, const traj::TeamTrajectory& plan, const Scene& scene)
+      : context_(context), net_(*context.scenario.net), plan_(plan), scene_(scene) {}
+
+  /// @return one a target, in their order; NaN throughout where it is never in reach
+  std::vector<net::Catch> run(const std::vector<std::optional<net::Crossing>>& crossings);
+  std::vector<Finding> take_findings() { return std::move(findings_); }
+
+ private:
+  void look_at_team(double t);
+  /// The highest of the obstacles under the net at time t that the net passes over, m.
+  double highest_under(double t) const;
+  void judge(std::size_t target, const net::Catch& caught);
+  void note(std::size_t target, double time, double value, double limit, double excess,
+            const std::string& what);
+
+  Context& context_;
+  const net::Net& net_;
+  const traj::TeamTrajectory& plan_;
+  const Scene& scene_;
+  std::vector<geom::Vec2> attachments_;
+  geom::Vec2 velocity_;  // mean of the attachments', m/s
+  std::vector<Finding> findings_;
+};
+
+/// Where the payload comes to rest with the team, and which way every car then faces.
+std::vector<Finding> check_delivery(const Context& context, const traj::TeamTrajectory& plan);
+
+}  // namespace seine::certify

@@ -1,0 +1,161 @@
+#include "seine/certify/height.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "seine/certify/tolerances.hpp"
+#include "seine/net/hanging.hpp"
+#include "seine/net/shape.hpp"
+
+namespace seine::certify {
+namespace {
+
+using geom::Vec2;
+
+constexpr int kMostSteps = 1 << 16;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// The deepest sag of a cloth between two attachments whose distance is somewhere in [nearest, furthest].
+double deepest_sag(double nearest, double furthest, double rest) {
+  const double middle = 0.5 * rest;  // where the parabola is deepest
+  if (nearest <= middle && middle <= furthest) return net::sag(middle, rest);
+  return std::max(net::sag(nearest, rest), net::sag(furthest, rest));
+}
+
+}  // namespace
+
+Height::Height(const net::Net& net, const Formation& formation)
+    : net_(net), share_(0.5 * (1.0 - 1.0 / static_cast<double>(formation.size()))) {
+  for (std::size_t i = 0; i < formation.size(); ++i) {
+    for (std::size_t j = i + 1; j < formation.size(); ++j)
+      pairs_.push_back({i, j, net::rest_distance(net, i, j)});
+  }
+  least_squares_.resize(pairs_.size());
+  shapes_.reserve(kMostShapes);
+}
+
+double Height::at(bool loaded, std::span<const Vec2> attachments) {
+  if (!loaded) return net_.rim() - net::empty_depth(net_, attachments);
+  const double depth = net::loaded_depth(net_, attachments);
+  if (shapes_.size() < kMostShapes) shapes_.push_back({0.0, std::vector<double>(pairs_.size())});
+  Shape& shape = shapes_[next_];
+  next_ = (next_ + 1) % kMostShapes;
+  shape.squared_depth = depth * depth;
+  for (std::size_t p = 0; p < pairs_.size(); ++p) {
+    shape.squares[p] = geom::squared_norm(attachments[pairs_[p].i] - attachments[pairs_[p].j]);
+  }
+  return net_.rim() - depth;
+}
+
+double Height::least(const Slice& slice) {
+  double sagging = 0.0;
+  for (std::size_t p = 0; p < pairs_.size(); ++p) {
+    const auto [i, j, rest] = pairs_[p];
+    const double from = geom::squared_norm(slice.from[j] - slice.from[i]),
+                 to = geom::squared_norm(slice.to[j] - slice.to[i]);
+    const double loss = slice.loss(i, j), furthest = std::sqrt(std::max(from, to)) + loss;
+    // |e|² has a second derivative of at least −2 |e| bend.
+    least_squares_[p] = std::max(0.0, std::min(from, to) - 2.0 * furthest * loss);
+    if (!slice.beat->loaded)
+      sagging = std::max(sagging, deepest_sag(std::sqrt(least_squares_[p]), furthest, rest));
+  }
+  return net_.rim() - (slice.beat->loaded ? std::sqrt(loaded_depth_squared()) : sagging);
+}
+
+/// An upper bound of D² for all shapes whose squared distances are at least `least_squares_`.
+double Height::loaded_depth_squared() const {
+  double bound = kInfinity;
+  for (const Shape& shape : shapes_) {
+    double decrease = 0.0;
+    for (std::size_t p = 0; p < pairs_.size(); ++p)
+      decrease = std::max(decrease, shape.squares[p] - least_squares_[p]);
+    bound = std::min(bound, shape.squared_depth + share_ * decrease);
+  }
+  return bound;
+}
+
+DragProof::DragProof(Context& context, const Formation& formation, Height& height)
+    : context_(context),
+      formation_(formation),
+      height_(height),
+      clearance_(context.scenario.net->clearance),
+      levels_(static_cast<std::size_t>(kDeepest), std::vector<Vec2>(formation.size())) {}
+
+void DragProof::run() {
+  glimpse();
+  for (const Beat& beat : formation_.beats()) {
+    worst_ = 0.0;
+    const Slice slice = formation_.slice(beat);
+    if (!keeps(slice)) refine(slice, 0);
+  }
+}
+
+/// Looks first where the loaded net is narrowest: it hangs deepest about there, and what hangs less deep
+/// need not be resolved.
+void DragProof::glimpse() {
+  const Beat* narrowest = nullptr;
+  double least = kInfinity;
+  for (const Beat& beat : formation_.beats()) {
+    if (!beat.loaded) continue;
+    const auto at = formation_.slice(beat).from;
+    double sum = 0.0;
+    for (std::size_t i = 0; i < at.size(); ++i) {
+      for (std::size_t j = i + 1; j < at.size(); ++j) sum += geom::squared_norm(at[i] - at[j]);
+    }
+    if (sum < least) least = sum, narrowest = &beat;
+  }
+  if (narrowest == nullptr) return;
+  const Slice slice = formation_.slice(*narrowest);
+  closest_ = {height_.at(true, slice.from) - clearance_, narrowest->t0, -1, -1};
+}
+
+void DragProof::look(const Slice& slice, std::span<const Vec2> at, double time) {
+  const double room = height_.at(slice.beat->loaded, at) - clearance_;
+  if (room < closest_.clearance) closest_ = {room, time, -1, -1};
+  if (room < -tolerance::kNetSeen) {
+    worst_ = std::min(worst_, room);
+    episodes_.offer(slice.beat->t0, slice.beat->t1, time, clearance_ + room, -room);
+  }
+}
+
+bool DragProof::keeps(const Slice& slice) {
+  const double wanted = worst_ < 0.0
+                            ? worst_ - kHeightResolution
+                            : std::max(-tolerance::kNetProved, closest_.clearance - kHeightResolution);
+  return height_.least(slice) - clearance_ >= wanted;
+}
+
+void DragProof::refine(const Slice& slice, int depth) {
+  if (++steps_ % 512 == 0) context_.out_of_time();
+  if (depth >= kDeepest || steps_ > kMostSteps || context_.expired.load(std::memory_order_relaxed)) {
+    if (worst_ < 0.0 || !undecided_.empty()) return;
+    undecided_.push_back({{Kind::undecided, slice.t0, -1, -1, 0.0, clearance_,
+                           format("the height of the net could not be proved at t = %.4f s", slice.t0)},
+                          0.0});
+    return;
+  }
+  std::vector<Vec2>& at = levels_[static_cast<std::size_t>(depth)];
+  const double middle = 0.5 * (slice.t0 + slice.t1);
+  formation_.place(*slice.beat, middle, at);
+  look(slice, at, middle);
+  Slice halves[2] = {slice, slice};
+  halves[0].t1 = halves[1].t0 = middle;
+  halves[0].to = halves[1].from = at;
+  for (const Slice& half : halves) {
+    if (!keeps(half)) refine(half, depth + 1);
+  }
+}
+
+std::vector<Finding> DragProof::findings() const {
+  std::vector<Finding> findings = undecided_;
+  for (const Episodes::Episode& e : episodes_.all()) {
+    findings.push_back(
+        {{Kind::net_drag, e.time, -1, -1, e.value, clearance_,
+          format("the net hangs down to %.4f m above the ground at t = %.4f s; %.4f m is required", e.value,
+                 e.time, clearance_)},
+         e.excess});
+  }
+  return findings;
+}
+
+}  // namespace seine::certify

@@ -1,0 +1,238 @@
+#include "seine/certify/ring.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "seine/certify/tolerances.hpp"
+#include "seine/geom/polygon.hpp"
+#include "seine/net/catch_rules.hpp"
+#include "seine/net/shape.hpp"
+
+namespace seine::certify {
+namespace {
+
+using geom::Vec2;
+
+constexpr int kMostSteps = 1 << 18;     // of one team; sane plans need some hundred
+constexpr double kShortestEdge = 1e-6;  // m: a shorter ring edge has no sides
+
+/// The vector from attachment i to j on a slice: its chord's ends, and how far it can leave the chord, m.
+struct Vector {
+  Vec2 from, to;
+  double loss;
+  double longest;  ///< upper bound of its chord's length
+
+  Vector(const Slice& slice, std::size_t i, std::size_t j)
+      : from(slice.from[j] - slice.from[i]),
+        to(slice.to[j] - slice.to[i]),
+        loss(slice.loss(i, j)),
+        longest(std::sqrt(std::max(geom::squared_norm(from), geom::squared_norm(to)))) {}
+};
+
+/// By how much e × w can fall below its chord. The cross product of two chords does by at most a quarter of
+/// that of their differences, and each vector can be off its chord.
+double cross_loss(const Vector& e, const Vector& w) {
+  const double of_chords = 0.25 * std::max(0.0, geom::cross(e.to - e.from, w.to - w.from));
+  return of_chords + e.loss * w.longest + w.loss * e.longest + e.loss * w.loss;
+}
+
+}  // namespace
+
+RingProof::RingProof(Context& context, const Formation& formation)
+    : context_(context),
+      net_(*context.scenario.net),
+      formation_(formation),
+      rest_area_(geom::signed_area(net_.rest)),
+      levels_(static_cast<std::size_t>(kDeepest) + 1) {
+  const std::size_t count = formation.size();
+  const auto add = [this](Rules& list, Rule rule) {
+    list.push_back(rules_.size());
+    rules_.push_back(std::move(rule));
+  };
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t j = i + 1; j < count; ++j) {
+      add(always_, {.sort = pair,
+                    .i = i,
+                    .j = j,
+                    .limit = net_.stretch * net::rest_distance(net_, i, j),
+                    .episodes = {}});
+    }
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t j = (i + 1) % count, after = (i + 2) % count, before = (i + count - 1) % count;
+    add(always_, {.sort = corner, .i = i, .j = j, .other = after, .limit = kConvexMargin, .episodes = {}});
+    if (before == after) continue;
+    add(always_, {.sort = corner, .i = i, .j = j, .other = before, .limit = kConvexMargin, .episodes = {}});
+  }
+  while_held_ = always_;
+  add(while_held_, {.sort = open, .limit = net::kHeldOpening, .episodes = {}});
+  for (Level& level : levels_) level.middle.resize(count);
+}
+
+void RingProof::run() {
+  check_start();
+  Rules left;
+  for (const Beat& beat : formation_.beats()) {
+    const Slice slice = formation_.slice(beat);
+    const Rules& rules = beat.held ? while_held_ : always_;
+    for (const std::size_t r : rules) {
+      rules_[r].worst = 0.0;
+      look(rules_[r], slice, slice.from, beat.t0);
+      look(rules_[r], slice, slice.to, beat.t1);
+    }
+    unproved(rules, slice, left);
+    if (!left.empty()) refine(left, slice, 0);
+  }
+}
+
+/// Left turns only, the ring could still wind round more than once; how often never changes.
+void RingProof::check_start() {
+  const auto at = formation_.slice(formation_.beats().front()).from;
+  double turning = 0.0;
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    const Vec2 middle = at[(i + 1) % at.size()];
+    const Vec2 in = middle - at[i], out = at[(i + 2) % at.size()] - middle;
+    turning += std::atan2(geom::cross(in, out), geom::dot(in, out));
+  }
+  const double rounds = turning / (2.0 * std::numbers::pi);
+  if (std::abs(rounds - 1.0) < 0.1) return;
+  start_.push_back(
+      {{Kind::net_topology, 0.0, -1, -1, rounds, 1.0,
+        format("the ring of the net winds %.1f times counter-clockwise at t = 0, not once", rounds)},
+       std::abs(rounds - 1.0)});
+}
+
+double RingProof::room(const Rule& rule, std::span<const Vec2> at) const {
+  if (rule.sort == open) return net::opening(net_, at) - rule.limit;
+  const Vec2 edge = at[rule.j] - at[rule.i];
+  const double length = geom::norm(edge);
+  if (rule.sort == pair) return rule.limit - length;
+  if (length < kShortestEdge) return -rule.limit;
+  return geom::cross(edge, at[rule.other] - at[rule.i]) / length - rule.limit;
+}
+
+bool RingProof::keeps(const Rule& rule, const Slice& slice, double wanted) const {
+  if (rule.sort == open) return keeps_open(slice, wanted);
+  if (rule.sort == corner) return keeps_corner(rule, slice, wanted);
+  const Vector apart(slice, rule.i, rule.j);
+  return rule.limit - (apart.longest + apart.loss) >= wanted;
+}
+
+bool RingProof::keeps_corner(const Rule& rule, const Slice& slice, double wanted) const {
+  // (e × w) − c |e| ≥ 0. The length of e is below the chord of its lengths at the ends, plus its loss …
+  const Vector e(slice, rule.i, rule.j), w(slice, rule.i, rule.other);
+  const double c = rule.limit + wanted, at_from = geom::norm(e.from), at_to = geom::norm(e.to);
+  const double cross_from = geom::cross(e.from, w.from), cross_to = geom::cross(e.to, w.to);
+  const double loss = cross_loss(e, w);
+  if (c >= 0.0) return std::min(cross_from - c * at_from, cross_to - c * at_to) - loss - c * e.loss >= 0.0;
+  // … and above the smaller one by no less than half of its change (only corners that are broken come here).
+  const double least = std::min(at_from, at_to) - 0.5 * geom::norm(e.to - e.from) - e.loss;
+  return std::min(cross_from, cross_to) - loss - c * std::max(least, 0.0) >= 0.0;
+}
+
+bool RingProof::keeps_open(const Slice& slice, double wanted) const {
+  // The area as the sum of triangles from attachment 0.
+  double loss = 0.0;
+  for (std::size_t i = 1; i + 1 < formation_.size(); ++i) {
+    loss += cross_loss(Vector(slice, 0, i), Vector(slice, 0, i + 1));
+  }
+  const double least = std::min(geom::signed_area(slice.from), geom::signed_area(slice.to)) - 0.5 * loss;
+  const double opening = net::kHeldOpening + wanted;
+  return opening <= 0.0 || least >= opening * opening * rest_area_;
+}
+
+void RingProof::look(Rule& rule, const Slice& slice, std::span<const Vec2> at, double time) {
+  const double found = room(rule, at);
+  Closest& closest = closest_[rule.sort];
+  if (found < closest.clearance) {
+    closest = {found, time, static_cast<int>(rule.i),
+               static_cast<int>(rule.sort == pair ? rule.j : rule.other)};
+  }
+  if (found >= -tolerance::kNetSeen) return;
+  rule.worst = std::min(rule.worst, found);
+  rule.episodes.offer(slice.beat->t0, slice.beat->t1, time, found, -found);
+}
+
+void RingProof::unproved(const Rules& rules, const Slice& slice, Rules& open_rules) {
+  open_rules.clear();
+  for (const std::size_t r : rules) {
+    const Rule& rule = rules_[r];
+    // A broken rule is followed to its worst, others to the least room of all.
+    const double wanted =
+        rule.worst < 0.0 ? rule.worst - kNetResolution
+                         : std::max(-tolerance::kNetProved, closest_[rule.sort].clearance - kNetResolution);
+    if (!keeps(rule, slice, wanted)) open_rules.push_back(r);
+  }
+}
+
+void RingProof::refine(const Rules& rules, const Slice& slice, int depth) {
+  if (++steps_ % 512 == 0) context_.out_of_time();
+  if (depth >= kDeepest || steps_ > kMostSteps || context_.expired.load(std::memory_order_relaxed))
+    return give_up(rules, slice.t0);
+  Level& level = levels_[static_cast<std::size_t>(depth)];
+  const double middle = 0.5 * (slice.t0 + slice.t1);
+  formation_.place(*slice.beat, middle, level.middle);
+  for (const std::size_t r : rules) look(rules_[r], slice, level.middle, middle);
+  Slice halves[2] = {slice, slice};
+  halves[0].t1 = halves[1].t0 = middle;
+  halves[0].to = halves[1].from = level.middle;
+  for (const Slice& half : halves) {
+    unproved(rules, half, level.open);
+    if (!level.open.empty()) refine(level.open, half, depth + 1);
+  }
+}
+
+void RingProof::give_up(const Rules& rules, double time) {
+  for (const std::size_t r : rules) {
+    Rule& rule = rules_[r];
+    if (rule.worst < 0.0 || rule.undecided) continue;
+    rule.undecided = true;
+    rule.undecided_time = time;
+  }
+}
+
+std::string RingProof::name(const Rule& rule) const {
+  const auto robot = [this](std::size_t k) { return context_.robot_name(static_cast<int>(k)); };
+  if (rule.sort == pair) return robot(rule.i) + " and " + robot(rule.j);
+  return robot(rule.other) + " and the net between " + robot(rule.i) + " and " + robot(rule.j);
+}
+
+Finding RingProof::finding(const Rule& rule, const Episodes::Episode& e) const {
+  const int i = static_cast<int>(rule.i), j = static_cast<int>(rule.j), other = static_cast<int>(rule.other);
+  if (rule.sort == pair) {
+    const double found = rule.limit - e.value;
+    return {{Kind::net_stretch, e.time, i, j, found, rule.limit,
+             format("%s hold the net %.4f m apart at t = %.4f s; %.4f m is allowed", name(rule).c_str(),
+                    found, e.time, rule.limit)},
+            e.excess};
+  }
+  const double found = rule.limit + e.value;
+  if (rule.sort == open) {
+    return {{Kind::net_opening, e.time, -1, -1, found, rule.limit,
+             format("the net is open to %.4f at t = %.4f s, soon after a catch; %.4f is required", found,
+                    e.time, rule.limit)},
+            e.excess};
+  }
+  return {{Kind::net_topology, e.time, other, i, found, rule.limit,
+           format("%s is %.4f m inside the edge of the net from %s to %s at t = %.4f s; %.4f m is required",
+                  context_.robot_name(other).c_str(), found, context_.robot_name(i).c_str(),
+                  context_.robot_name(j).c_str(), e.time, rule.limit)},
+          e.excess};
+}
+
+std::vector<Finding> RingProof::findings() const {
+  std::vector<Finding> findings = start_;
+  for (const Rule& rule : rules_) {
+    for (const Episodes::Episode& e : rule.episodes.all()) findings.push_back(finding(rule, e));
+    if (!rule.undecided) continue;
+    const std::string what = rule.sort == open ? "the opening of the net" : name(rule);
+    findings.push_back({{Kind::undecided, rule.undecided_time, -1, -1, 0.0, rule.limit,
+                         format("%s: size and shape of the net could not be proved at t = %.4f s",
+                                what.c_str(), rule.undecided_time)},
+                        0.0});
+  }
+  return findings;
+}
+
+}  // namespace seine::certify

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "seine/certify/formation.hpp"
+#include "seine/certify/report.hpp"
+
+namespace seine::certify {
+
+/// Proves size and shape of a net: no two attachments further apart than the cloth allows, the ring convex
+/// and counter-clockwise with a margin, wide open after a catch.
+///
+/// Each rule has a room r(t), what is left of it: negative when broken. On a slice every vector between two
+/// attachments is its chord plus at most ⅛ bend w²; docs/certificate.md derives the lower bounds of r from
+/// that. Slices that are not proved are halved.
+class RingProof {
+ public:
+  RingProof(Context& context, const Formation& formation);
+
+  void run();
+  std::vector<Finding> findings() const;
+
+  /// The least room of the pairs and of the ring's corners, m, each found to within kNetResolution.
+  const Closest& stretch() const { return closest_[pair]; }
+  const Closest& convexity() const { return closest_[corner]; }
+
+ private:
+  enum Sort { pair, corner, open, kSorts };
+  struct Rule {
+    Sort sort;
+    std::size_t i = 0, j = 0;  ///< a pair, or the ring edge i → j …
+    std::size_t other = 0;     ///< … and the attachment that stays on its left
+    double limit = 0.0;        ///< m of distance or height; least opening
+    double worst = 0.0;        ///< room in the beat at hand; 0 when none is broken
+    bool undecided = false;    ///< somewhere
+    double undecided_time = 0.0;
+    Episodes episodes;
+  };
+  using Rules = std::vector<std::size_t>;
+  struct Level {
+    std::vector<geom::Vec2> middle;
+    Rules open;
+  };
+  static constexpr int kDeepest = 40;
+
+  void check_start();
+  double room(const Rule& rule, std::span<const geom::Vec2> at) const;
+  /// Whether the room is at least `wanted` throughout the slice.
+  bool keeps(const Rule& rule, const Slice& slice, double wanted) const;
+  bool keeps_corner(const Rule& rule, const Slice& slice, double wanted) const;
+  bool keeps_open(const Slice& slice, double wanted) const;
+  void look(Rule& rule, const Slice& slice, std::span<const geom::Vec2> at, double time);
+  /// Of `rules`, those not proved on the slice.
+  void unproved(const Rules& rules, const Slice& slice, Rules& open);
+  void refine(const Rules& rules, const Slice& slice, int depth);
+  void give_up(const Rules& rules, double time);
+  Finding finding(const Rule& rule, const Episodes::Episode& episode) const;
+  std::string name(const Rule& rule) const;
+
+  Context& context_;
+  const net::Net& net_;
+  const Formation& formation_;
+  double rest_area_;  // m²
+  std::vector<Rule> rules_;
+  Rules always_, while_held_;
+  std::array<Closest, kSorts> closest_;
+  std::vector<Level> levels_;
+  std::vector<Finding> start_;
+  int steps_ = 0;
+};
+
+}  // namespace seine::certify
