@@ -117,10 +117,13 @@ class Fit {
 }  // namespace
 
 Vec2 FormationGuess::offset(std::size_t k, double s) const {
-  if (s <= change_begin) return before.offsets[k];
-  if (s >= change_end) return after.offsets[k];
-  const double r = (s - change_begin) / (change_end - change_begin), share = r * r * (3.0 - 2.0 * r);
-  return (1.0 - share) * before.offsets[k] + share * after.offsets[k];
+  Vec2 offset = shapes.front().offsets[k];
+  for (std::size_t i = 0; i < changes.size() && s > changes[i].begin; ++i) {
+    const double r = std::min((s - changes[i].begin) / (changes[i].end - changes[i].begin), 1.0);
+    const double share = r * r * (3.0 - 2.0 * r);
+    offset = (1.0 - share) * offset + share * shapes[i + 1].offsets[k];
+  }
+  return offset;
 }
 
 std::vector<trajopt::RobotTask> fit_formation(const FormationGuess& guess, const world::Scenario& scenario,

@@ -11,8 +11,12 @@ namespace seine::planner {
 struct FormationGuess {
   search::FormationPath way;
   search::FormationTiming timing;
-  search::Formation before, after;
-  double change_begin = 0.0, change_end = 0.0;  ///< m driven: from `before` to `after`
+  /// How the cars stand: as in the first shape, and from each change on as in the next.
+  struct Change {
+    double begin, end;  ///< m driven
+  };
+  std::vector<search::Formation> shapes;
+  std::vector<Change> changes;  ///< one fewer than shapes, in order
 
   /// Offset of car k at driven length s.
   geom::Vec2 offset(std::size_t k, double s) const;

@@ -19,8 +19,6 @@ constexpr int kDirections = 64;
 constexpr double kPassOpening = 0.92;
 // What the optimiser keeps of the windows that the certificate checks, m and m/s.
 constexpr double kDepthSlack = 0.008, kSpeedSlack = 0.1;
-// The team does not drive quite straight and evenly between the rim and the contact, m.
-constexpr double kContactSlack = 0.01;
 // Sideways speed asked for on top of what the guess expects, m/s.
 constexpr double kSidewaysRoom = 0.6;
 constexpr double kCruise = 0.9;  // of the top speed: what the formation is expected to drive
@@ -158,7 +156,7 @@ class Asking {
     trajopt::CatchTask task;
     task.time = at.time, task.point = point, task.velocity = velocity;
     task.margin = net::kRimMargin + error;
-    task.contact_margin = net::kContactMargin + kContactSlack + error;
+    task.contact_margin = net::kContactMargin + error;
     const double needed = least_time(scenario_, point, task.margin);
     if (needed > task.time)
       return refuse(name + text(" cannot be reached: the team needs at least %.2f s to hold the net around "
@@ -172,7 +170,6 @@ class Asking {
     if (!allow_speed(name, target, down, velocity, drive, top, task)) return false;
     // The deepest the net may hang: what is inside there and at the rim is inside between.
     task.contact_delay = most_depth_ / down;
-    task.contact_point = point + task.contact_delay * velocity;
     task.least_opening = net::kLeastOpening;
     task.held_opening = net::kHeldOpening, task.hold = net::kHoldTime;
     task.least_spread = std::sqrt(std::max(0.0, spread_ * spread_ - most_depth_ * most_depth_));

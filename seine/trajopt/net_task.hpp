@@ -14,8 +14,7 @@ struct CatchTask {
   double time = 0.0;            ///< s, the target's centre falls through the rim plane …
   geom::Vec2 point;             ///< … here …
   double margin = 0.3;          ///< … and is this far inside every edge of the net, m
-  double contact_delay = 0.0;   ///< s later it meets the net …
-  geom::Vec2 contact_point;     ///< … here …
+  double contact_delay = 0.0;   ///< s later it meets the net, if both go on straight …
   double contact_margin = 0.2;  ///< … this far inside, m
   geom::Vec2 velocity;          ///< of the target over ground, m/s
   double most_sideways = std::numeric_limits<double>::infinity();  ///< m/s relative to the net's middle
@@ -45,8 +44,6 @@ struct NetTask {
   double spread_slack = 0.0;          ///< m, on top of what keeps net and payload off the ground
 };
 
-/// The ring stays convex by this much, m.
-inline constexpr double kConvexMargin = 0.05;
 /// Cars face the delivery's heading to within this, rad.
 inline constexpr double kDeliveryHeading = 0.1;
 

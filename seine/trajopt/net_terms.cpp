@@ -13,6 +13,7 @@
 #include "seine/constraint/net_spread.hpp"
 #include "seine/constraint/net_stretch.hpp"
 #include "seine/math/hinge.hpp"
+#include "seine/net/shape.hpp"
 
 namespace seine::trajopt {
 namespace {
@@ -36,7 +37,7 @@ NetTask scaled(NetTask task, const Units& units) {
   task.net.clearance *= l;
   for (CatchTask& c : task.catches) {
     c.time *= t, c.contact_delay *= t, c.hold *= t;
-    c.point *= l, c.contact_point *= l;
+    c.point *= l;
     c.margin *= l, c.contact_margin *= l, c.least_spread *= l, c.most_radius *= l;
     c.velocity *= v, c.most_sideways *= v;
   }
@@ -74,8 +75,8 @@ NetTerms::NetTerms(const NetTask& task, const Units& units, const Settings& sett
   const double span = kVelocitySpan / units.time;
   for (const CatchTask& c : task_.catches) {
     const std::size_t first = moments_.size();
-    catches_.push_back({first, first + 1, first + 2, first + 3, c});
-    moments_.insert(moments_.end(), {c.time, c.time + c.contact_delay, c.time - span, c.time + span});
+    catches_.push_back({first, first + 1, first + 2, c});
+    moments_.insert(moments_.end(), {c.time, c.time - span, c.time + span});
   }
   moments_.push_back(kInfinity);
   units_length_ = units.length;
@@ -206,7 +207,7 @@ double NetTerms::shape_cost(const Look& look, Ring& ring, double knee) const {
   const std::size_t n = ring.at.size();
   double cost = 0.0, slope;
   if (task_.topology) {
-    const double margin = kConvexMargin / units_length_ + slack_;
+    const double margin = net::kConvexMargin / units_length_ + slack_;
     for (std::size_t i = 0; i < n; ++i) {
       const std::size_t next = (i + 1) % n, after = (i + 2) % n, before = (i + n - 1) % n;
       for (const std::size_t j : {after, before}) {
@@ -232,16 +233,13 @@ double NetTerms::shape_cost(const Look& look, Ring& ring, double knee) const {
 
 double NetTerms::at_moments(std::span<ClockState> states, double knee) const {
   double cost = delivery_cost(states, knee);
-  for (const Catch& c : catches_) {
-    cost += catch_cost(c, states, knee);
-    cost += velocity_cost(c, states, knee);
-  }
+  for (const Catch& c : catches_) cost += catch_cost(c, states, knee);
   return cost;
 }
 
 // A hinge on every ring edge: the margin is reached, and nothing beyond it is paid for. (The letter's cost is
 // linear in the distance to the nearest edge, Eqs. 17-19: it has no weight that asks for a margin.)
-double NetTerms::inside(Ring& ring, Vec2 point, double margin, double knee) const {
+double NetTerms::inside(Ring& ring, Vec2 point, double margin, double knee, Vec2& g_point) const {
   const std::size_t n = ring.at.size();
   double cost = 0.0, slope;
   for (std::size_t i = 0; i < n; ++i) {
@@ -252,15 +250,14 @@ double NetTerms::inside(Ring& ring, Vec2 point, double margin, double knee) cons
     cost += moment_weight_ * math::hinge(excess, knee, slope);
     ring.gradient[i] -= (moment_weight_ * slope) * g.a;
     ring.gradient[next] -= (moment_weight_ * slope) * g.b;
+    g_point -= (moment_weight_ * slope) * g.p;
   }
   return cost;
 }
 
-double NetTerms::catch_cost(const Catch& c, std::span<ClockState> states, double knee) const {
-  const std::size_t row = moments_.size();
-  Ring ring;
-  place(states, c.rim, row, ring);
-  double cost = inside(ring, c.task.point, c.task.margin, knee), slope;
+// How open the net is, and how deep it hangs.
+double NetTerms::opening_cost(const Catch& c, Ring& ring, double knee) const {
+  double cost = 0.0, slope;
   const auto pay = [&](double excess, double sign) {
     if (excess <= 0.0) return;
     cost += moment_weight_ * math::hinge(excess, knee, slope);
@@ -272,29 +269,33 @@ double NetTerms::catch_cost(const Catch& c, std::span<ClockState> states, double
   pay(c.task.least_spread - constraint::net_spread(ring.at, ring.scratch), -1.0);
   for (std::size_t k = 0; std::isfinite(c.task.most_radius) && k < ring.at.size(); ++k)
     pay(constraint::net_radius(ring.at, k, ring.scratch) - c.task.most_radius, 1.0);
-  pull(states, c.rim, row, ring);
-  place(states, c.contact, row, ring);
-  cost += inside(ring, c.task.contact_point, c.task.contact_margin, knee);
-  pull(states, c.contact, row, ring);
   return cost;
 }
 
-double NetTerms::velocity_cost(const Catch& c, std::span<ClockState> states, double knee) const {
-  if (!std::isfinite(c.task.most_sideways)) return 0.0;
-  const std::size_t row = moments_.size(), n = task_.net.size();
-  Ring before, after;
+double NetTerms::catch_cost(const Catch& c, std::span<ClockState> states, double knee) const {
+  const std::size_t row = moments_.size();
+  const double share = 1.0 / static_cast<double>(task_.net.size()),
+               span = moments_[c.after] - moments_[c.before];
+  Ring rim, before, after;
+  place(states, c.rim, row, rim);
   place(states, c.before, row, before);
   place(states, c.after, row, after);
-  Vec2 p, q, g_p, g_q;
-  for (std::size_t k = 0; k < n; ++k)
-    p += before.at[k] / static_cast<double>(n), q += after.at[k] / static_cast<double>(n);
-  const double excess = constraint::catch_velocity(p, q, moments_[c.after] - moments_[c.before],
-                                                   c.task.velocity, c.task.most_sideways, g_p, g_q);
-  if (excess <= 0.0) return 0.0;
+  Vec2 p, q, g_p, g_q, g_contact, unused;
+  for (const Vec2 a : before.at) p += share * a;
+  for (const Vec2 a : after.at) q += share * a;
+  double cost = inside(rim, c.task.point, c.task.margin, knee, unused);
+  cost += opening_cost(c, rim, knee);
+  // Seen from the net, the target goes on straight from the rim to the contact.
+  const Vec2 contact = c.task.point + c.task.contact_delay * (c.task.velocity - (q - p) / span);
+  cost += inside(rim, contact, c.task.contact_margin, knee, g_contact);
+  const double excess =
+      constraint::catch_velocity(p, q, span, c.task.velocity, c.task.most_sideways, g_p, g_q);
   double slope;
-  const double cost = moment_weight_ * math::hinge(excess, knee, slope);
-  const double share = moment_weight_ * slope / static_cast<double>(n);
-  for (std::size_t k = 0; k < n; ++k) before.gradient[k] = share * g_p, after.gradient[k] = share * g_q;
+  cost += moment_weight_ * math::hinge(excess, knee, slope);
+  const Vec2 drift = (c.task.contact_delay / span) * g_contact;
+  for (Vec2& g : before.gradient) g = share * (moment_weight_ * slope * g_p + drift);
+  for (Vec2& g : after.gradient) g = share * (moment_weight_ * slope * g_q - drift);
+  pull(states, c.rim, row, rim);
   pull(states, c.before, row, before);
   pull(states, c.after, row, after);
   return cost;

@@ -39,8 +39,8 @@ class NetTerms {
     double opening = 0.0;
   };
   struct Catch {
-    std::size_t rim, contact, before, after;  // moments
-    CatchTask task;                           // units
+    std::size_t rim, before, after;  // moments
+    CatchTask task;                  // units
   };
   // The ring at one instant, and ∂J/∂ of it.
   struct Ring {
@@ -52,9 +52,9 @@ class NetTerms {
   double at_tick(const Look& look, Ring& ring, double knee) const;
   double size_cost(const Look& look, Ring& ring, double knee) const;
   double shape_cost(const Look& look, Ring& ring, double knee) const;
-  double inside(Ring& ring, geom::Vec2 point, double margin, double knee) const;
+  double inside(Ring& ring, geom::Vec2 point, double margin, double knee, geom::Vec2& g_point) const;
+  double opening_cost(const Catch& c, Ring& ring, double knee) const;
   double catch_cost(const Catch& c, std::span<ClockState> states, double knee) const;
-  double velocity_cost(const Catch& c, std::span<ClockState> states, double knee) const;
   double delivery_cost(std::span<ClockState> states, double knee) const;
   double spread_for(double depth) const;
   void look_at(Look& look, double time, std::span<const geom::Vec2> ring);
