@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
 #include <map>
 #include <numbers>
 #include <optional>
 
 #include "seine/geom/polygon.hpp"
+#include "seine/world/check_parts.hpp"
+#include "seine/world/net_check.hpp"
 
 namespace seine::world {
 namespace {
@@ -18,34 +19,8 @@ using geom::Vec2;
 
 constexpr double kTolerance = 1e-6;  // m
 
-std::string number(double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return text;
-}
-
-std::string metres(double value) {
-  return number(value) + " m";
-}
-
-std::string name_of(const Robot& robot, std::size_t index) {
-  return robot.name.empty() ? "robot " + std::to_string(index + 1) : robot.name;
-}
-
-std::string name_of(const Obstacle& obstacle, std::size_t index) {
-  return obstacle.name.empty() ? "obstacle " + std::to_string(index + 1) : obstacle.name;
-}
-
 bool finite(const geom::Pose2& pose) {
   return std::isfinite(pose.x) && std::isfinite(pose.y) && std::isfinite(pose.heading);
-}
-
-using Complaints = std::vector<std::string>;
-
-// True when `value` is fine. NaN never is; infinity only where a limit may be absent.
-bool require(bool fine, const std::string& what, double value, const char* expected, Complaints& out) {
-  if (!fine) out.push_back(what + " is " + number(value) + ", expected " + expected);
-  return fine;
 }
 
 bool check_footprint(const vehicle::Model& model, Complaints& out) {
@@ -117,26 +92,6 @@ bool check_obstacle(const Obstacle& obstacle, const std::string& name, Complaint
     }
   }
   return true;
-}
-
-// A moving obstacle's pose at t = 0, the start of the common clock.
-geom::Pose2 pose_at_start(const std::vector<Waypoint>& motion) {
-  const auto after = std::find_if(motion.begin(), motion.end(), [](const Waypoint& w) { return w.t >= 0.0; });
-  if (after == motion.begin()) return motion.front().pose;
-  if (after == motion.end()) return motion.back().pose;
-  const Waypoint& a = *(after - 1);
-  const double part = -a.t / (after->t - a.t);
-  return {a.pose.x + part * (after->pose.x - a.pose.x), a.pose.y + part * (after->pose.y - a.pose.y),
-          a.pose.heading + part * geom::wrap_angle(after->pose.heading - a.pose.heading)};
-}
-
-std::vector<Convex> body_of(const Obstacle& obstacle) {
-  if (const auto* circle = std::get_if<Circle>(&obstacle.shape)) return {{{circle->center}, circle->radius}};
-  std::vector<Convex> parts;
-  for (std::vector<Vec2>& part : geom::convex_parts(std::get<std::vector<Vec2>>(obstacle.shape))) {
-    parts.push_back({std::move(part), 0.0});
-  }
-  return parts;
 }
 
 // A car at one of its ends.
@@ -275,15 +230,19 @@ std::vector<std::string> check(const Scenario& scenario, const StaticMap& map) {
     }
     check_pairs(*stands, usable(scenario.margins.robot), out);
   }
+  bool obstacles_fine = true;
   for (std::size_t i = 0; i < scenario.obstacles.size(); ++i) {
     const Obstacle& obstacle = scenario.obstacles[i];
     const std::string name = name_of(obstacle, i);
-    if (!check_obstacle(obstacle, name, out) || obstacle.motion.empty()) continue;
+    const bool fine = check_obstacle(obstacle, name, out);
+    obstacles_fine &= fine;
+    if (!fine || obstacle.motion.empty()) continue;
     const std::vector<Convex> body = body_of(obstacle);
     check_moving(starts, body, pose_at_start(obstacle.motion), name + " (moving, at t = 0)", margin, out);
     check_moving(goals, body, obstacle.motion.back().pose, name + " (moving, where it comes to rest)", margin,
                  out);
   }
+  if (obstacles_fine) check_net(scenario, map, out);
   return out;
 }
 
