@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "seine/net/catch_rules.hpp"
 #include "seine/search/formation_shapes.hpp"
 
 namespace seine::planner {
@@ -59,7 +60,9 @@ FormationGuess assemble(search::FormationPath way, const search::FormationProble
   guess.timing = search::time_formation(way, problem);
   guess.shapes = {search::start_formation(*problem.scenario)};
   const double change = kChangeLength * problem.scenario->models.front().length(), length = way.path.length();
-  const double last = way.meeting_s.empty() ? 0.0 : way.meeting_s.back();
+  // The net stays as it is until it has held its catch for a while.
+  const search::TimedPath timed{way.path, guess.timing.profile};
+  const double last = way.meeting_s.empty() ? 0.0 : timed.at(problem.meetings.back().time + net::kHoldTime).s;
   const auto change_to = [&](const Formation& shape, double begin) {
     if (shape.offsets == guess.shapes.back().offsets) return;
     guess.shapes.push_back(shape);

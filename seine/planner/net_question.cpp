@@ -18,6 +18,8 @@ constexpr int kDirections = 64;
 // An obstacle is low when the loaded net clears it at this opening.
 constexpr double kPassOpening = 0.92;
 // What the optimiser keeps of the windows that the certificate checks, m and m/s.
+// Low obstacles this much beyond the net's reach count at a catch, m.
+constexpr double kNearCatch = 0.15;
 constexpr double kDepthSlack = 0.008, kSpeedSlack = 0.1;
 // Sideways speed asked for on top of what the guess expects, m/s.
 constexpr double kSidewaysRoom = 0.6;
@@ -75,21 +77,21 @@ struct Window {
   bool open() const { return least_depth <= most_depth; }
 };
 
-Window window_at(double speed, const net::Net& net, const net::Target& target, double spread) {
+Window window_at(double speed, const net::Net& net, const net::Target& target, double spread, double ground) {
   const double energy = 1.0 / (net.rebound * net.rebound) - 1.0, turned = speed / 0.85;
   Window w{target.radius + turned * turned / (2.0 * net::kGravity * energy),
-           net.rim() - net.clearance - net::impact_drop(speed, target.mass)};
+           net.rim() - net.clearance - ground - net::impact_drop(speed, target.mass)};
   w.least_depth = std::max(w.least_depth + kDepthSlack, depth_at(spread, net.stretch - 0.003));
   w.most_depth = std::min(w.most_depth - kDepthSlack, depth_at(spread, net::kLeastOpening + 0.002));
   return w;
 }
 
-double fastest_catch(const net::Net& net, const net::Target& target, double spread) {
+double fastest_catch(const net::Net& net, const net::Target& target, double spread, double ground) {
   double low = 0.0, high = net::kMaxSpeed;
-  if (window_at(high, net, target, spread).open()) return high;
+  if (window_at(high, net, target, spread, ground).open()) return high;
   for (int k = 0; k < 50; ++k) {
     const double middle = 0.5 * (low + high);
-    (window_at(middle, net, target, spread).open() ? low : high) = middle;
+    (window_at(middle, net, target, spread, ground).open() ? low : high) = middle;
   }
   return low;
 }
@@ -167,6 +169,7 @@ class Asking {
     const Vec2 way = point - from;
     const double pace = std::min(kCruise * top, 1.3 * geom::norm(way) / std::max(task.time - leave, 0.1));
     const Vec2 drive = geom::norm(way) > 1e-9 ? pace * (way / geom::norm(way)) : Vec2{};
+    ground_ = highest_near(point);
     if (!allow_speed(name, target, down, velocity, drive, top, task)) return false;
     // The deepest the net may hang: what is inside there and at the rim is inside between.
     task.contact_delay = most_depth_ / down;
@@ -181,10 +184,21 @@ class Asking {
     return true;
   }
 
+  // Height of what the net may be over when it catches at `point`.
+  double highest_near(Vec2 point) const {
+    const std::vector<Vec2> at{point};
+    double reach = kNearCatch, highest = 0.0;
+    for (const Vec2 r : net_.rest) reach = std::max(reach, geom::norm(r) + kNearCatch);
+    for (const trajopt::LowObstacle& low : question_.task.low)
+      if (geom::distance(at, low.shape.core) - low.shape.radius < reach)
+        highest = std::max(highest, low.height);
+    return highest;
+  }
+
   // How fast the target may come sideways, and how deep the net must then hang.
   bool allow_speed(const std::string& name, const net::Target& target, double down, Vec2 velocity, Vec2 drive,
                    double top, trajopt::CatchTask& task) {
-    const double most = fastest_catch(net_, target, spread_) - kSpeedSlack;
+    const double most = fastest_catch(net_, target, spread_, ground_) - kSpeedSlack;
     const double sideways = geom::norm(velocity);
     const double least_sideways = std::max(0.0, sideways - top);
     if (std::hypot(down, least_sideways) > most)
@@ -199,7 +213,7 @@ class Asking {
                          net::kMaxAngle * 180.0 / std::numbers::pi));
     const double wanted = std::hypot(down, geom::norm(velocity - drive) + kSidewaysRoom);
     const double speed = std::min(most, wanted);
-    const Window window = window_at(speed, net_, target, spread_);
+    const Window window = window_at(speed, net_, target, spread_, ground_);
     least_depth_ = window.least_depth, most_depth_ = window.most_depth;
     task.most_sideways = std::min(std::sqrt(std::max(0.0, speed * speed - down * down)),
                                   down * std::tan(net::kMaxAngle - 0.01));
@@ -210,7 +224,7 @@ class Asking {
   const Ablation& without_;
   const net::Net& net_;
   double spread_;
-  double least_depth_ = 0.0, most_depth_ = 0.0;
+  double least_depth_ = 0.0, most_depth_ = 0.0, ground_ = 0.0;
   NetQuestion question_;
 };
 

@@ -13,7 +13,10 @@ namespace {
 
 constexpr int kAttempts = 6;
 constexpr int kPolishRounds = 6;
+constexpr std::size_t kShareCars = 8;
 constexpr double kTick = 0.0667;  // of the time a car takes to drive its own length
+// One path for all: longer pieces than for a car among others, for nobody has to dodge anybody.
+constexpr FitOptions kFit{.piece_length = 2.4};
 constexpr double kPenaltyRaise = 3.0, kMostPenalty = 100.0;
 constexpr double kTightenRaise = 0.005, kMostTighten = 0.03;
 constexpr double kClearanceRaise = 0.01;  // car lengths, on top of what was missed
@@ -66,7 +69,7 @@ bool NetSession::guess(int attempt) {
 
 void NetSession::prepare() {
   const Stopwatch watch;
-  tasks_ = fit_formation(guess_, scenario_, map_, {});
+  tasks_ = fit_formation(guess_, scenario_, map_, kFit);
   if (options_.without.relaxation || options_.without.cusps)
     for (trajopt::RobotTask& task : tasks_) {
       const trajopt::SegmentGuess& last = task.segments.back();
@@ -101,7 +104,9 @@ void NetSession::solve(bool soft) {
   task.one_timing = true;
   for (const trajopt::RobotTask& robot : tasks_) task.robots.push_back(&robot);
   for (const trajopt::Body& body : bodies_) task.bodies.push_back(&body);
-  trajopt::JointProblem problem(task, settings_, workers_);
+  // Evaluations of a few cars are shorter than what it takes to share them out.
+  Workers serial(1);
+  trajopt::JointProblem problem(task, settings_, tasks_.size() < kShareCars ? serial : workers_);
   if (x_.empty()) x_ = problem.initial();
   const trajopt::SolveSummary summary = problem.solve(x_, deadline_, !soft);
   result_.iterations += summary.soft_evaluations + summary.stiff_evaluations;

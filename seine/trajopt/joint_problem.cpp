@@ -14,6 +14,8 @@ constexpr bool refresh_at(int iteration) {
 // Car lengths beyond the clearance within which a pair is watched at coarse and at all ticks: what two cars
 // can close in between two coarse ticks, and what an iterate moves until the next refresh.
 constexpr double kSkin = 1.0, kClose = 0.5;
+// The net looks at every so many ticks; it refreshes from the coarse ones of the pairs.
+constexpr int kNetStride = 2 * Proximity::kStride;
 // Longest change of any variable (car lengths, logarithms, radians) in one iteration: longer ones are never
 // useful.
 constexpr double kMaxStep = 1.0;
@@ -63,7 +65,7 @@ JointProblem::JointProblem(const Task& task, const Settings& settings, Workers& 
   variables_ = offsets_.back();
   if (task.one_timing) tie();
   if (task.net == nullptr) return;
-  net_.emplace(*task.net, units_, settings, tick_, Proximity::kStride);
+  net_.emplace(*task.net, units_, settings, tick_, kNetStride);
   moments_.resize(robots_.size() * net_->moments().size());
 }
 
@@ -131,13 +133,13 @@ void JointProblem::refresh(std::span<const double> x) {
     // Until everybody rests, and a little longer.
     double last = 0.0;
     for (const RobotProblem& robot : robots_) last = std::max(last, robot.arrival());
-    net_ticks = std::min(ticks_, static_cast<int>(last / tick_) + 2 * Proximity::kStride);
+    net_ticks = std::min(ticks_, static_cast<int>(last / tick_) + 2 * kNetStride);
     net_->rebuild(states_, net_ticks, ticks_);
   }
   for (std::size_t k = 0; k < robots_.size(); ++k) {
     std::vector<int>& needed = needed_[k];
     needed.clear();
-    for (int tick = 0; tick < net_ticks; tick += Proximity::kStride) needed.push_back(tick);
+    for (int tick = 0; tick < net_ticks; tick += kNetStride) needed.push_back(tick);
     std::vector<int> merged;
     std::ranges::set_union(needed, proximity_.ticks_of(static_cast<int>(k)), std::back_inserter(merged));
     needed = std::move(merged);
