@@ -40,6 +40,50 @@ bool drives_backward(const traj::TeamTrajectory* plan) {
          });
 }
 
+void add_net_entries(const world::Scenario& scenario, std::vector<LegendEntry>& entries) {
+  if (!scenario.net) return;
+  const auto ink = [](const char* colour) {
+    return joined("stroke=\"", colour, "\" fill=\"", colour, "\" ");
+  };
+  entries.push_back(
+      {box_drawing(joined(ink(SvgInk::kNet), "fill-opacity=\"0.13\" stroke-width=\"1.5\"")), "net"});
+  if (!scenario.targets.empty()) {
+    entries.push_back(
+        {joined(line_drawing(joined("stroke-dasharray=\"5 3\" stroke=\"", SvgInk::kTarget, "\"").c_str()),
+                "<circle cx=\"20\" r=\"4\" fill=\"none\" stroke=\"", SvgInk::kTarget,
+                "\"/><path d=\"M20-6V6\" stroke=\"", SvgInk::kTarget, "\"/>"),
+         "target, caught"});
+  }
+  if (scenario.payload) {
+    entries.push_back({joined("<circle cx=\"13\" r=\"4\" fill=\"", SvgInk::kTarget, "\"/>"), "payload"});
+  }
+  if (scenario.delivery) {
+    entries.push_back({joined("<circle cx=\"13\" r=\"6\" stroke-dasharray=\"3 2\" fill-opacity=\"0.14\" ",
+                              ink(SvgInk::kDelivery), "/>"),
+                       "delivery"});
+  }
+}
+
+void add_obstacle_entries(const world::Scenario& scenario, std::vector<LegendEntry>& entries) {
+  const auto any = [&](auto&& test) {
+    return std::any_of(scenario.obstacles.begin(), scenario.obstacles.end(), test);
+  };
+  const auto shape = [](const char* fill, const char* edge) {
+    return box_drawing(joined("fill=\"", fill, "\" stroke-width=\"1.2\" stroke=\"", edge, "\""));
+  };
+  if (scenario.map || any([&](const auto& o) { return o.motion.empty() && !is_low(scenario, o); })) {
+    entries.push_back({shape(SvgInk::kSolid, SvgInk::kEdge), "obstacle"});
+  }
+  if (any([&](const auto& o) { return o.motion.empty() && is_low(scenario, o); })) {
+    entries.push_back({shape("url(#low)", SvgInk::kLowEdge), "low obstacle"});
+  }
+  if (any([](const auto& o) { return !o.motion.empty(); })) {
+    entries.push_back({box_drawing(joined("fill-opacity=\"0.4\" fill=\"", SvgInk::kMoving, "\" stroke=\"",
+                                          SvgInk::kMoving, "\"")),
+                       "moving obstacle"});
+  }
+}
+
 std::vector<LegendEntry> legend_entries(const world::Scenario& scenario, const traj::TeamTrajectory* plan,
                                         double interval) {
   const std::string car = car_colour(0), stroke = joined("stroke=\"", car, "\" ");
@@ -47,9 +91,12 @@ std::vector<LegendEntry> legend_entries(const world::Scenario& scenario, const t
   entries.push_back({joined("<g ", stroke, "stroke-width=\"1.4\">", box_drawing("fill=\"#fff\""),
                             "<path d=\"M13 0H22\"/></g>"),
                      "start"});
-  entries.push_back({joined(box_drawing(joined("fill=\"", car, "\"")),
-                            "<path d=\"M13 0H22\" stroke=\"#fff\" stroke-width=\"1.2\"/>"),
-                     "goal"});
+  if (std::any_of(scenario.robots.begin(), scenario.robots.end(),
+                  [](const auto& r) { return r.goal.has_value(); })) {
+    entries.push_back({joined(box_drawing(joined("fill=\"", car, "\"")),
+                              "<path d=\"M13 0H22\" stroke=\"#fff\" stroke-width=\"1.2\"/>"),
+                       "goal"});
+  }
   if (plan != nullptr) {
     entries.push_back({line_drawing(stroke.c_str()), "forward"});
     if (drives_backward(plan)) {
@@ -62,23 +109,8 @@ std::vector<LegendEntry> legend_entries(const world::Scenario& scenario, const t
         {box_drawing(joined("fill=\"", car, "\" fill-opacity=\"0.2\" stroke-width=\"0.5\" ", stroke)),
          joined("every ", rounded_text(interval, 3), " s")});
   }
-  const auto any = [&](auto&& test) {
-    return std::any_of(scenario.obstacles.begin(), scenario.obstacles.end(), test);
-  };
-  const auto shape = [](const char* fill, const char* edge) {
-    return box_drawing(joined("fill=\"", fill, "\" stroke-width=\"1.2\" stroke=\"", edge, "\""));
-  };
-  if (scenario.map || any([](const auto& o) { return o.motion.empty() && std::isinf(o.height); })) {
-    entries.push_back({shape(SvgInk::kSolid, SvgInk::kEdge), "obstacle"});
-  }
-  if (any([](const auto& o) { return o.motion.empty() && !std::isinf(o.height); })) {
-    entries.push_back({shape(SvgInk::kLow, SvgInk::kLowEdge), "low obstacle"});
-  }
-  if (any([](const auto& o) { return !o.motion.empty(); })) {
-    entries.push_back({box_drawing(joined("fill-opacity=\"0.4\" fill=\"", SvgInk::kMoving, "\" stroke=\"",
-                                          SvgInk::kMoving, "\"")),
-                       "moving obstacle"});
-  }
+  add_obstacle_entries(scenario, entries);
+  add_net_entries(scenario, entries);
   return entries;
 }
 
@@ -128,10 +160,13 @@ std::string scene(const world::Scenario& scenario, const traj::TeamTrajectory* p
   std::string out = joined("<rect ", bounds, " fill=\"", SvgInk::kFloor, "\"/>\n");
   out += map_layer(scenario, view);
   out += obstacle_layer(scenario, view, plan != nullptr ? plan->makespan() : 0.0, interval);
+  out += delivery_layer(scenario, view);
   if (plan != nullptr) out += ghost_layer(scenario, *plan, view, interval);
   out += end_layer(scenario, view);
+  out += net_layer(scenario, plan, view);
   // Ways lie over starts and goals: that is where cars change gear.
   if (plan != nullptr) out += path_layer(*plan, view);
+  out += target_layer(scenario, plan, view);
   out += name_layer(scenario, view);
   out += joined("<rect ", bounds, " fill=\"none\" stroke=\"", SvgInk::kFaint, "\" stroke-width=\"1.5\"/>\n");
   // A thin frame where the bounds lie outside of what is drawn.
@@ -174,9 +209,9 @@ std::string svg_text(const world::Scenario& scenario, const traj::TeamTrajectory
       px(width + 2 * kEdge), "\" height=\"", px(height + kEdge), "\" viewBox=\"0 0 ", size,
       "\" font-family=\"Inter, 'Helvetica Neue', Helvetica, Arial, sans-serif\">\n");
   out += joined("<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n<defs>\n",
-                footprint_definitions(scenario, view), "<clipPath id=\"area\"><rect x=\"", px(kEdge - 1),
-                "\" y=\"", px(kEdge + kHead - 1), "\" width=\"", px(area.x + 2), "\" height=\"",
-                px(area.y + 2), "\"/></clipPath>\n</defs>\n");
+                footprint_definitions(scenario, view), hatch_definition(), "<clipPath id=\"area\"><rect x=\"",
+                px(kEdge - 1), "\" y=\"", px(kEdge + kHead - 1), "\" width=\"", px(area.x + 2),
+                "\" height=\"", px(area.y + 2), "\"/></clipPath>\n</defs>\n");
   out += joined(head(scenario, plan, options), "<g clip-path=\"url(#area)\">\n",
                 scene(scenario, plan, view, interval), "</g>\n", key,
                 scale_bar(view, {kEdge + width, below.y + kRow / 2 + 4}), "</svg>\n");

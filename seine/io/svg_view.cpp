@@ -4,12 +4,26 @@
 #include <cmath>
 
 #include "seine/io/number_text.hpp"
+#include "seine/net/flight.hpp"
 
 namespace seine::io {
 namespace {
 
 void include_car(const vehicle::Model& model, const geom::Pose2& pose, geom::Box& box) {
   for (const geom::Vec2 corner : model.footprint) box.include(pose * corner);
+}
+
+/// Where targets fall through the rim, and where they are brought.
+void include_net_task(const world::Scenario& scenario, geom::Box& box) {
+  if (!scenario.net) return;
+  for (const net::Target& target : scenario.targets) {
+    if (const auto crossing = net::Flight(target).crossing(scenario.net->rim()))
+      box.include(crossing->state.position.ground());
+  }
+  if (!scenario.delivery) return;
+  const geom::Vec2 reach{scenario.delivery->radius, scenario.delivery->radius};
+  box.include(scenario.delivery->center - reach);
+  box.include(scenario.delivery->center + reach);
 }
 
 /// Where the cars are at any time, m.
@@ -26,6 +40,7 @@ geom::Box used_part(const world::Scenario& scenario, const traj::TeamTrajectory*
     for (int i = 0; i <= kSamples; ++i)
       include_car(model, plan->robots[k].at(arrival * i / kSamples).pose, box);
   }
+  include_net_task(scenario, box);
   return box;
 }
 

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "seine/io/image.hpp"
@@ -87,6 +88,22 @@ std::string outline(const world::Obstacle& obstacle, const geom::Pose2& pose, co
   return joined("M", px(left), half, px(2 * r), " 0", half, px(-2 * r), " 0Z");
 }
 
+/// In the middle of a low obstacle, where there is room for it.
+std::string height_label(const world::Obstacle& obstacle, const SvgView& view) {
+  geom::Box box;
+  if (const auto* polygon = std::get_if<std::vector<Vec2>>(&obstacle.shape)) {
+    box = geom::bounding_box(*polygon);
+  } else {
+    const auto& circle = std::get<world::Circle>(obstacle.shape);
+    box.include(circle.center);
+    box = box.inflated(circle.radius);
+  }
+  if (view.scale * box.size().x < 22.0 || view.scale * box.size().y < 10.0) return "";
+  const Vec2 at = view(box.center());
+  return joined("<text x=\"", px(at.x), "\" y=\"", px(at.y + 3.0), "\">", rounded_text(obstacle.height, 2),
+                " m</text>\n");
+}
+
 /// Where a moving obstacle stands at time t.
 geom::Pose2 pose_at(const std::vector<world::Waypoint>& motion, double t) {
   if (t <= motion.front().t) return motion.front().pose;
@@ -140,14 +157,29 @@ std::string map_layer(const world::Scenario& scenario, const SvgView& view) {
          embedded(grid, window, edge, rgb(SvgInk::kEdge), view);
 }
 
+bool is_low(const world::Scenario& scenario, const world::Obstacle& obstacle) {
+  return obstacle.height < (scenario.net ? scenario.net->rim() : std::numeric_limits<double>::infinity());
+}
+
+std::string hatch_definition() {
+  return joined(
+      "<pattern id=\"low\" width=\"5\" height=\"5\" patternUnits=\"userSpaceOnUse\" "
+      "patternTransform=\"rotate(45)\"><rect width=\"5\" height=\"5\" fill=\"#fffdf7\"/>"
+      "<path d=\"M0 0V5\" stroke=\"",
+      SvgInk::kLow, "\" stroke-width=\"4\"/></pattern>\n");
+}
+
 std::string obstacle_layer(const world::Scenario& scenario, const SvgView& view, double makespan,
                            double interval) {
-  std::string tall, low, moving;
+  std::string tall, low, moving, heights;
   for (const world::Obstacle& obstacle : scenario.obstacles) {
     if (!obstacle.motion.empty()) {
       moving += moving_obstacle(obstacle, view, makespan, interval);
+    } else if (is_low(scenario, obstacle)) {
+      low += outline(obstacle, {}, view);
+      heights += height_label(obstacle, view);
     } else {
-      (std::isinf(obstacle.height) ? tall : low) += outline(obstacle, {}, view);
+      tall += outline(obstacle, {}, view);
     }
   }
   std::string out;
@@ -157,8 +189,12 @@ std::string obstacle_layer(const world::Scenario& scenario, const SvgView& view,
                     "\" stroke-width=\"1.2\" stroke-linejoin=\"round\" d=\"", data, "\"/>\n");
     }
   };
-  group(SvgInk::kLow, SvgInk::kLowEdge, low);
+  group("url(#low)", SvgInk::kLowEdge, low);
   group(SvgInk::kSolid, SvgInk::kEdge, tall);
+  if (!heights.empty()) {
+    out += joined("<g font-size=\"9\" text-anchor=\"middle\" fill=\"", SvgInk::kLowText, "\">\n", heights,
+                  "</g>\n");
+  }
   if (!moving.empty()) {
     out += joined("<g fill=\"", SvgInk::kMoving, "\" stroke=\"", SvgInk::kMoving,
                   "\" stroke-width=\"0.9\">\n", moving, "</g>\n");
