@@ -18,8 +18,6 @@ constexpr int kQuickExpansions = 1500;  // as the crow flies; then around what i
 constexpr int kFieldExpansions = 6000;
 constexpr int kShapeExpansions = 2500;
 constexpr std::size_t kShapes = 24;  // tried in one call
-// A shape this much wider than the narrowest place is not tried, m; the place is only known from below.
-constexpr double kTooWide = 0.5;
 
 search::FormationProblem problem_for(const world::Scenario& scenario, const world::StaticMap& map,
                                      const NetQuestion& question, const Deadline& deadline) {
@@ -92,7 +90,6 @@ std::optional<FormationGuess> search_narrow(search::FormationProblem problem, bo
   const auto off = [&](const search::NarrowShape& shape) {
     return std::abs(std::sin(shape.along - place->along));
   };
-  std::erase_if(shapes, [&](const search::NarrowShape& s) { return s.width > place->width + kTooWide; });
   std::stable_sort(shapes.begin(), shapes.end(),
                    [&](const search::NarrowShape& a, const search::NarrowShape& b) {
                      return a.width + off(a) < b.width + off(b);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "seine/base/error.hpp"
+#include "seine/net/catch_rules.hpp"
 #include "seine/planner/formation_guess.hpp"
 #include "seine/planner/moving_bodies.hpp"
 #include "seine/world/check.hpp"
@@ -19,7 +20,9 @@ constexpr double kTick = 0.0667;  // of the time a car takes to drive its own le
 constexpr FitOptions kFit{.piece_length = 2.4};
 constexpr double kPenaltyRaise = 3.0, kMostPenalty = 100.0;
 constexpr double kTightenRaise = 0.005, kMostTighten = 0.03;
-constexpr double kClearanceRaise = 0.01;  // car lengths, on top of what was missed
+constexpr double kNetRaise = 0.01, kCatchRaise = 0.003;         // m, likewise
+constexpr double kOpeningRaise = 0.004, kSidewaysRaise = 0.05;  // of the net at rest; m/s
+constexpr double kClearanceRaise = 0.01;                        // car lengths, on top of what was missed
 
 }  // namespace
 
@@ -78,6 +81,7 @@ void NetSession::prepare() {
       task.fixed_cusps = options_.without.cusps;
     }
   settings_ = {};
+  net_ = question_.task;
   demands_.assign(tasks_.size(), {});
   const trajopt::Units units = trajopt::units_of(tasks_);
   tick_ = kTick * units.time;
@@ -100,7 +104,7 @@ void NetSession::solve(bool soft) {
   task.robot_clearance = scenario_.margins.robot;
   task.extra = extra_;
   task.demands = demands_;
-  task.net = &question_.task;
+  task.net = &net_;
   task.one_timing = true;
   for (const trajopt::RobotTask& robot : tasks_) task.robots.push_back(&robot);
   for (const trajopt::Body& body : bodies_) task.bodies.push_back(&body);
@@ -171,11 +175,46 @@ void NetSession::raise_demands(int round) {
         demands_[a].penalty_scale = std::min(demands_[a].penalty_scale * kPenaltyRaise, kMostPenalty);
         if (round > 0) demands_[a].tighten = std::min(demands_[a].tighten + kTightenRaise, kMostTighten);
         break;
+      case certify::Kind::net_drag:
+        net_.spread_slack += missed + kNetRaise;
+        break;
+      case certify::Kind::net_obstacle:
+        net_.obstacle_slack += missed + kNetRaise;
+        net_.spread_slack += kNetRaise;
+        break;
+      case certify::Kind::net_opening:
+        for (trajopt::CatchTask& c : net_.catches) c.held_opening += kOpeningRaise;
+        break;
+      case certify::Kind::target_catch:
+        raise_catch(static_cast<std::size_t>(v.other));
+        break;
       default:
-        net = true;
+        break;
     }
+    net = net || v.kind >= certify::Kind::net_stretch;
   }
   if (net) settings_.net_penalty *= 2.0, settings_.catch_penalty *= 2.0;
+}
+
+// Which of the catch's rules was broken, and by how much, the certificate has measured.
+void NetSession::raise_catch(std::size_t target) {
+  if (target >= net_.catches.size() || target >= result_.certificate.catches.size()) return;
+  trajopt::CatchTask& task = net_.catches[target];
+  const net::Catch& found = result_.certificate.catches[target];
+  const net::Target& thrown = scenario_.targets[target];
+  const auto missing = [](double have, double want) { return std::clamp(want - have, 0.0, 0.05); };
+  if (found.rim_margin < net::kRimMargin)
+    task.margin += missing(found.rim_margin, net::kRimMargin) + kCatchRaise;
+  if (found.contact_margin < net::kContactMargin)
+    task.contact_margin += missing(found.contact_margin, net::kContactMargin) + kCatchRaise;
+  if (found.opening < net::kLeastOpening) task.least_opening += kOpeningRaise;
+  if (found.speed > net::speed_limit(found.depth, thrown.radius, net_.net.rebound)) {
+    task.most_radius -= kCatchRaise;
+    task.most_sideways -= kSidewaysRaise;
+  }
+  if (found.angle > net::kMaxAngle) task.most_sideways -= kSidewaysRaise;
+  if (found.bottom < net_.net.clearance)
+    task.least_spread += missing(found.bottom, net_.net.clearance) + kCatchRaise;
 }
 
 void NetSession::report(const char* stage, double fraction) const {

@@ -26,6 +26,7 @@ class NetSession {
   bool certify();
   void polish();
   void raise_demands(int round);
+  void raise_catch(std::size_t target);
   void report(const char* stage, double fraction) const;
   PlanResult finish();
 
@@ -36,6 +37,7 @@ class NetSession {
   Workers workers_;
   world::StaticMap map_;
   NetQuestion question_;
+  trajopt::NetTask net_;  // what is asked of the present attempt, raised where the certificate found fault
   trajopt::Settings settings_;
   FormationGuess guess_;
   double tick_ = 0.05;  // s

@@ -155,7 +155,7 @@ std::optional<Narrowest> narrowest_place(const FormationProblem& problem) {
   if (problem.goal) places.push_back(problem.goal->center);
   Narrowest result{0.0, std::numeric_limits<double>::infinity()};
   for (const Vec2 place : places) {
-    CostToGo to_go({.distances = &distances, .radius = radius, .comfort = size, .discomfort = 3}, place);
+    CostToGo to_go({.distances = &distances, .radius = radius, .comfort = 0.5 * size, .discomfort = 10}, place);
     to_go.focus(at);
     double left = to_go(at);
     if (!std::isfinite(left)) return std::nullopt;
