@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "seine/certify/slice_bounds.hpp"
 #include "seine/certify/tolerances.hpp"
 #include "seine/net/hanging.hpp"
 #include "seine/net/shape.hpp"
@@ -24,11 +25,9 @@ double deepest_sag(double nearest, double furthest, double rest) {
 
 }  // namespace
 
-Height::Height(const net::Net& net, const Formation& formation)
-    : net_(net), share_(0.5 * (1.0 - 1.0 / static_cast<double>(formation.size()))) {
-  for (std::size_t i = 0; i < formation.size(); ++i) {
-    for (std::size_t j = i + 1; j < formation.size(); ++j)
-      pairs_.push_back({i, j, net::rest_distance(net, i, j)});
+Height::Height(const net::Net& net) : net_(net), share_(0.5 * (1.0 - 1.0 / static_cast<double>(net.size()))) {
+  for (std::size_t i = 0; i < net.size(); ++i) {
+    for (std::size_t j = i + 1; j < net.size(); ++j) pairs_.push_back({i, j, net::rest_distance(net, i, j)});
   }
   least_squares_.resize(pairs_.size());
   shapes_.reserve(kMostShapes);
@@ -51,13 +50,10 @@ double Height::least(const Slice& slice) {
   double sagging = 0.0;
   for (std::size_t p = 0; p < pairs_.size(); ++p) {
     const auto [i, j, rest] = pairs_[p];
-    const double from = geom::squared_norm(slice.from[j] - slice.from[i]),
-                 to = geom::squared_norm(slice.to[j] - slice.to[i]);
-    const double loss = slice.loss(i, j), furthest = std::sqrt(std::max(from, to)) + loss;
-    // |e|² has a second derivative of at least −2 |e| bend.
-    least_squares_[p] = std::max(0.0, std::min(from, to) - 2.0 * furthest * loss);
+    least_squares_[p] = least_square_apart(slice, i, j);
     if (!slice.beat->loaded)
-      sagging = std::max(sagging, deepest_sag(std::sqrt(least_squares_[p]), furthest, rest));
+      sagging =
+          std::max(sagging, deepest_sag(std::sqrt(least_squares_[p]), furthest_apart(slice, i, j), rest));
   }
   return net_.rim() - (slice.beat->loaded ? std::sqrt(loaded_depth_squared()) : sagging);
 }

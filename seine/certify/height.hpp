@@ -16,7 +16,7 @@ namespace seine::certify {
 /// have been computed serve for all that are alike.
 class Height {
  public:
-  Height(const net::Net& net, const Formation& formation);
+  explicit Height(const net::Net& net);
 
   /// m above ground; a loaded shape is remembered.
   double at(bool loaded, std::span<const geom::Vec2> attachments);

@@ -44,7 +44,7 @@ NetVerdict prove_net(Context& context, const Scene& scene, const traj::TeamTraje
   ring.run();
   append(verdict.findings, ring.findings());
 
-  Height height(net, formation);
+  Height height(net);
   DragProof drag(context, formation, height);
   drag.run();
   append(verdict.findings, drag.findings());

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "seine/certify/slice_bounds.hpp"
 #include "seine/certify/tolerances.hpp"
 #include "seine/geom/polygon.hpp"
 #include "seine/net/catch_rules.hpp"
@@ -16,26 +17,6 @@ using geom::Vec2;
 
 constexpr int kMostSteps = 1 << 18;     // of one team; sane plans need some hundred
 constexpr double kShortestEdge = 1e-6;  // m: a shorter ring edge has no sides
-
-/// The vector from attachment i to j on a slice: its chord's ends, and how far it can leave the chord, m.
-struct Vector {
-  Vec2 from, to;
-  double loss;
-  double longest;  ///< upper bound of its chord's length
-
-  Vector(const Slice& slice, std::size_t i, std::size_t j)
-      : from(slice.from[j] - slice.from[i]),
-        to(slice.to[j] - slice.to[i]),
-        loss(slice.loss(i, j)),
-        longest(std::sqrt(std::max(geom::squared_norm(from), geom::squared_norm(to)))) {}
-};
-
-/// By how much e × w can fall below its chord. The cross product of two chords does by at most a quarter of
-/// that of their differences, and each vector can be off its chord.
-double cross_loss(const Vector& e, const Vector& w) {
-  const double of_chords = 0.25 * std::max(0.0, geom::cross(e.to - e.from, w.to - w.from));
-  return of_chords + e.loss * w.longest + w.loss * e.longest + e.loss * w.loss;
-}
 
 }  // namespace
 
@@ -113,33 +94,16 @@ double RingProof::room(const Rule& rule, std::span<const Vec2> at) const {
 }
 
 bool RingProof::keeps(const Rule& rule, const Slice& slice, double wanted) const {
-  if (rule.sort == open) return keeps_open(slice, wanted);
-  if (rule.sort == corner) return keeps_corner(rule, slice, wanted);
-  const Vector apart(slice, rule.i, rule.j);
-  return rule.limit - (apart.longest + apart.loss) >= wanted;
-}
-
-bool RingProof::keeps_corner(const Rule& rule, const Slice& slice, double wanted) const {
-  // (e × w) − c |e| ≥ 0. The length of e is below the chord of its lengths at the ends, plus its loss …
-  const Vector e(slice, rule.i, rule.j), w(slice, rule.i, rule.other);
-  const double c = rule.limit + wanted, at_from = geom::norm(e.from), at_to = geom::norm(e.to);
-  const double cross_from = geom::cross(e.from, w.from), cross_to = geom::cross(e.to, w.to);
-  const double loss = cross_loss(e, w);
-  if (c >= 0.0) return std::min(cross_from - c * at_from, cross_to - c * at_to) - loss - c * e.loss >= 0.0;
-  // … and above the smaller one by no less than half of its change (only corners that are broken come here).
-  const double least = std::min(at_from, at_to) - 0.5 * geom::norm(e.to - e.from) - e.loss;
-  return std::min(cross_from, cross_to) - loss - c * std::max(least, 0.0) >= 0.0;
-}
-
-bool RingProof::keeps_open(const Slice& slice, double wanted) const {
-  // The area as the sum of triangles from attachment 0.
-  double loss = 0.0;
-  for (std::size_t i = 1; i + 1 < formation_.size(); ++i) {
-    loss += cross_loss(Vector(slice, 0, i), Vector(slice, 0, i + 1));
+  switch (rule.sort) {
+    case pair:
+      return rule.limit - furthest_apart(slice, rule.i, rule.j) >= wanted;
+    case corner:
+      return stays_inside(slice, rule.i, rule.j, rule.other, rule.limit + wanted);
+    default: {
+      const double opening = rule.limit + wanted;
+      return opening <= 0.0 || least_area(slice) >= opening * opening * rest_area_;
+    }
   }
-  const double least = std::min(geom::signed_area(slice.from), geom::signed_area(slice.to)) - 0.5 * loss;
-  const double opening = net::kHeldOpening + wanted;
-  return opening <= 0.0 || least >= opening * opening * rest_area_;
 }
 
 void RingProof::look(Rule& rule, const Slice& slice, std::span<const Vec2> at, double time) {

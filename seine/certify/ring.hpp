@@ -11,9 +11,8 @@ namespace seine::certify {
 /// Proves size and shape of a net: no two attachments further apart than the cloth allows, the ring convex
 /// and counter-clockwise with a margin, wide open after a catch.
 ///
-/// Each rule has a room r(t), what is left of it: negative when broken. On a slice every vector between two
-/// attachments is its chord plus at most ⅛ bend w²; docs/certificate.md derives the lower bounds of r from
-/// that. Slices that are not proved are halved.
+/// Each rule has a room, what is left of it: negative when broken. It is bounded from below on the beats
+/// (slice_bounds.hpp); what is not proved is halved.
 class RingProof {
  public:
   RingProof(Context& context, const Formation& formation);
@@ -48,8 +47,6 @@ class RingProof {
   double room(const Rule& rule, std::span<const geom::Vec2> at) const;
   /// Whether the room is at least `wanted` throughout the slice.
   bool keeps(const Rule& rule, const Slice& slice, double wanted) const;
-  bool keeps_corner(const Rule& rule, const Slice& slice, double wanted) const;
-  bool keeps_open(const Slice& slice, double wanted) const;
   void look(Rule& rule, const Slice& slice, std::span<const geom::Vec2> at, double time);
   /// Of `rules`, those not proved on the slice.
   void unproved(const Rules& rules, const Slice& slice, Rules& open);

@@ -199,5 +199,29 @@ TEST(PlantedCatch, BrakesTooHardWithSomethingInTheNet) {
   EXPECT_TRUE(team.judge().holds) << summary(team.judge());
 }
 
+TEST(PlantedCatch, MayAccelerateHardUntilTheCatch) {
+  // Hard at first, gently afterwards: when the target falls in decides.
+  traj::TeamTrajectory plan;
+  for (const Vec2 corner : regular(4, kOpen * kRadius)) {
+    plan.robots.push_back(straight({corner.x - 0.2, corner.y, 0.0}, 2.0, 2.0));
+    traj::Segment& segment = plan.robots.back().segments.front();
+    segment.progress = rest_to_rest(1.0, 8, 0.2), segment.piece_duration = 0.25;
+  }
+  NetTeam team = net_team(plan, regular(4, kRadius), {0.2, 0.0});
+  double gentle = 0.0;
+  while (plan.robots[0].at(gentle).acceleration > net::kBraking) gentle += 1e-4;
+  ASSERT_GT(gentle, 0.1);
+  ASSERT_LT(gentle, 1.0);
+  for (const double off : {-1e-3, 1e-3}) {
+    const traj::State then = plan.robots[0].at(gentle + off);
+    team.scenario.targets = {
+        falling({then.pose.x + 0.2 - kOpen * kRadius, 0.0}, gentle + off, {then.speed, 0.0, -6.0})};
+    const Certificate certificate = team.judge();
+    EXPECT_EQ(certificate.holds, off > 0.0) << summary(certificate);
+    for (const Violation& v : certificate.violations)
+      EXPECT_EQ(v.kind, Kind::braking) << summary(certificate);
+  }
+}
+
 }  // namespace
 }  // namespace seine::certify::test

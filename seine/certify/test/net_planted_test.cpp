@@ -90,6 +90,27 @@ TEST(PlantedNet, Twists) {
   expect_holds(parked_team({{-1, -1}, {1, -1}, {0.2, 0.2}, {-1, 1}}, square(1.5)).judge());
 }
 
+TEST(PlantedNet, CornersCutWhileTheRingTurns) {
+  // Straight ways at an even speed carry every corner to the place of the next: half way the ring is smaller
+  // by a half, and nothing accelerates.
+  const auto turning = [](double height) {
+    const std::vector<Vec2> corners = regular(3, height * 2.0 / 3.0);
+    traj::TeamTrajectory plan;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec2 way = corners[(k + 1) % 3] - corners[k];
+      const geom::Pose2 start{corners[k].x, corners[k].y, std::atan2(way.y, way.x)};
+      plan.robots.push_back(straight(start, geom::norm(way), 1.0));
+      plan.robots.back().segments.front().piece_duration = 1.0;
+      plan.robots.back().segments.front().progress = {{0.0, 1.0, 0.0, 0.0, 0.0, 0.0}};
+    }
+    return net_team(plan, regular(3, 1.0), {0.0, 0.0}).judge();
+  };
+  for (const double off : {-1e-3, 1e-3}) {
+    const Certificate certificate = turning(2.0 * (kConvexMargin + off));
+    EXPECT_EQ(breaks(certificate, Kind::net_topology), off < 0.0) << summary(certificate);
+  }
+}
+
 TEST(PlantedNet, TooNarrowATriangle) {
   for (const double height : {0.0485, 0.0515}) {
     const Certificate certificate = parked_team({{-1, 0}, {1, 0}, {0, height}}, regular(3, 1.4)).judge();
@@ -214,6 +235,12 @@ TEST(PlantedNet, DragsOnlyOnceLoaded) {
     team.scenario.targets = {drop({0.0, 0.0}, time, 3.0)};
     EXPECT_EQ(breaks(team.judge(), Kind::net_drag), time < 2.0) << summary(team.judge());
   }
+  // Long after everybody has arrived in too narrow a formation.
+  team = parked_team(regular(4, 0.9), regular(4, 1.4));
+  team.net().clearance = 0.1;
+  expect_holds(team.judge());
+  team.scenario.targets = {drop({0.0, 0.0}, 77.0, 3.0)};
+  EXPECT_TRUE(breaks(team.judge(), Kind::net_drag)) << summary(team.judge());
 }
 
 TEST(PlantedNet, IsNotDelivered) {
