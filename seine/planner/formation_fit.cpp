@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "seine/net/catch_rules.hpp"
 #include "seine/traj/minco.hpp"
 #include "seine/trajopt/kernels.hpp"
 
@@ -136,9 +135,6 @@ std::vector<trajopt::RobotTask> fit_formation(const FormationGuess& guess, const
     const Fit fit(guess, k, robot);
     trajopt::RobotTask task;
     task.model = scenario.model_of(robot);
-    // What brakes a car after a catch is limited; the whole plan keeps to it.
-    if (!scenario.targets.empty())
-      task.model.limits.acceleration = std::min(task.model.limits.acceleration, net::kBraking);
     task.start = robot.start, task.start_speed = robot.start_speed, task.goal = robot.goal;
     std::vector<Pose2> poses;
     for (std::size_t i = 0; i < stretches.size(); ++i) {

@@ -7,13 +7,15 @@
 #include "seine/net/catch_rules.hpp"
 #include "seine/planner/formation_guess.hpp"
 #include "seine/planner/moving_bodies.hpp"
+#include "seine/planner/previous_fit.hpp"
 #include "seine/world/check.hpp"
 
 namespace seine::planner {
 namespace {
 
 constexpr int kAttempts = 6;
-constexpr int kPolishRounds = 6;
+constexpr int kPolishRounds = 6, kGoOnRounds = 3;
+constexpr double kGoOnDecrease = 2e-3;  // an optimum a little off needs no more than a touch
 constexpr std::size_t kShareCars = 8;
 constexpr double kTick = 0.0667;  // of the time a car takes to drive its own length
 // One path for all: longer pieces than for a car among others, for nobody has to dodge anybody.
@@ -45,15 +47,32 @@ PlanResult NetSession::run() {
     result_.reason = question_.refusal;
     return finish();
   }
+  if (options_.previous != nullptr && go_on()) return finish();
   for (int attempt = 0; attempt < kAttempts && !deadline_.expired(); ++attempt) {
     if (!guess(attempt)) continue;
+    const Stopwatch watch;
+    tasks_ = fit_formation(guess_, scenario_, map_, kFit);
     prepare();
+    result_.times.corridor += watch.seconds();
     solve(true);
-    polish();
+    polish(kPolishRounds);
     if (result_.certified) break;
     ++result_.repairs;
   }
   return finish();
+}
+
+// From what is left of an earlier plan.
+bool NetSession::go_on() {
+  const Stopwatch watch;
+  tasks_ = fit_previous(*options_.previous, options_.previous_time, scenario_, map_, kFit);
+  if (tasks_.empty()) return false;
+  prepare();
+  settings_.stiff_decrease = kGoOnDecrease;
+  result_.times.corridor += watch.seconds();
+  solve(false);
+  polish(kGoOnRounds);
+  return result_.certified;
 }
 
 bool NetSession::guess(int attempt) {
@@ -70,27 +89,29 @@ bool NetSession::guess(int attempt) {
   return true;
 }
 
+// Everything about an attempt that depends on its tasks.
 void NetSession::prepare() {
-  const Stopwatch watch;
-  tasks_ = fit_formation(guess_, scenario_, map_, kFit);
-  if (options_.without.relaxation || options_.without.cusps)
-    for (trajopt::RobotTask& task : tasks_) {
-      const trajopt::SegmentGuess& last = task.segments.back();
-      if (options_.without.relaxation && !task.goal)
-        task.goal = geom::Pose2{last.points.back().x, last.points.back().y, last.end_heading};
-      task.fixed_cusps = options_.without.cusps;
-    }
+  double duration = 0.0;
+  for (const trajopt::SegmentGuess& segment : tasks_.front().segments)
+    duration += segment.wait + segment.duration;
+  for (trajopt::RobotTask& task : tasks_) {
+    const trajopt::SegmentGuess& last = task.segments.back();
+    if (options_.without.relaxation && !task.goal)
+      task.goal = geom::Pose2{last.points.back().x, last.points.back().y, last.end_heading};
+    task.fixed_cusps = options_.without.cusps;
+    // What brakes a car after a catch is limited; the whole plan keeps to it.
+    if (!scenario_.targets.empty())
+      task.model.limits.acceleration = std::min(task.model.limits.acceleration, net::kBraking);
+  }
   settings_ = {};
   net_ = question_.task;
   demands_.assign(tasks_.size(), {});
-  const trajopt::Units units = trajopt::units_of(tasks_);
-  tick_ = kTick * units.time;
-  bodies_.clear();
-  const int ticks = static_cast<int>(std::ceil(1.2 * guess_.timing.profile.back().t / tick_)) + 80;
-  bodies_ = moving_obstacles(scenario_, units, settings_.clearance_slack, tick_, ticks);
+  units_ = trajopt::units_of(tasks_);
+  tick_ = kTick * units_.time;
+  ticks_ = static_cast<int>(std::ceil(1.2 * duration / tick_)) + 80;
+  bodies_ = moving_obstacles(scenario_, units_, settings_.clearance_slack, tick_, ticks_);
   extra_.assign(tasks_.size() * (tasks_.size() + bodies_.size()), 0.0);
   x_.clear();
-  result_.times.corridor += watch.seconds();
 }
 
 void NetSession::solve(bool soft) {
@@ -98,9 +119,7 @@ void NetSession::solve(bool soft) {
   const Stopwatch watch;
   report("optimise", 0.0);
   trajopt::Task task;
-  task.units = trajopt::units_of(tasks_);
-  task.tick = tick_;
-  task.ticks = static_cast<int>(std::ceil(1.2 * guess_.timing.profile.back().t / tick_)) + 80;
+  task.units = units_, task.tick = tick_, task.ticks = ticks_;
   task.robot_clearance = scenario_.margins.robot;
   task.extra = extra_;
   task.demands = demands_;
@@ -130,10 +149,10 @@ bool NetSession::certify() {
   return result_.certified;
 }
 
-void NetSession::polish() {
-  for (int round = 0; round < kPolishRounds; ++round) {
+void NetSession::polish(int rounds) {
+  for (int round = 0; round < rounds; ++round) {
     if (certify() || deadline_.expired()) return;
-    report("repair", static_cast<double>(round) / kPolishRounds);
+    report("repair", static_cast<double>(round) / rounds);
     raise_demands(round);
     solve(false);
   }
@@ -142,7 +161,7 @@ void NetSession::polish() {
 
 // Asks more where the certificate found fault.
 void NetSession::raise_demands(int round) {
-  const double length = trajopt::units_of(tasks_).length;
+  const double length = units_.length;
   const std::size_t row = tasks_.size() + bodies_.size();
   bool net = false;
   for (const certify::Violation& v : result_.certificate.violations) {

@@ -20,11 +20,12 @@ class NetSession {
   PlanResult run();
 
  private:
+  bool go_on();
   bool guess(int attempt);
   void prepare();
   void solve(bool soft);
   bool certify();
-  void polish();
+  void polish(int rounds);
   void raise_demands(int round);
   void raise_catch(std::size_t target);
   void report(const char* stage, double fraction) const;
@@ -40,7 +41,9 @@ class NetSession {
   trajopt::NetTask net_;  // what is asked of the present attempt, raised where the certificate found fault
   trajopt::Settings settings_;
   FormationGuess guess_;
+  trajopt::Units units_;
   double tick_ = 0.05;  // s
+  int ticks_ = 1;
   std::vector<trajopt::RobotTask> tasks_;
   std::vector<trajopt::Body> bodies_;  // moving obstacles
   std::vector<double> extra_;          // m, robots × (robots + bodies)

@@ -33,6 +33,10 @@ struct Options {
   std::uint64_t seed = 0;
   Ablation without;
   std::function<void(const Progress&)> progress;  ///< optional
+  /// A team with a net can go on from a plan it has: planning starts from what is left of that plan at
+  /// `previous_time` on its clock, which is 0 on the new one. The plan must outlive the call.
+  const traj::TeamTrajectory* previous = nullptr;
+  double previous_time = 0.0;  ///< s
 };
 
 /// Where the time went, seconds.
