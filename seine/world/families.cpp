@@ -9,6 +9,7 @@
 
 #include "seine/base/error.hpp"
 #include "seine/base/rng.hpp"
+#include "seine/world/clutter.hpp"
 
 namespace seine::world {
 namespace {
@@ -69,29 +70,6 @@ constexpr double kClear = 0.75;                     // m from a rear axle to obs
 constexpr double kShortest = 9.2, kLongest = 11.2;  // m from start to goal
 constexpr double kHeadingSpread = 0.8;              // rad off the straight way
 constexpr int kTries = 2000;                        // draws of one thing before the whole scene is drawn anew
-
-/// A convex polygon inscribed in a circle; only the circle matters for where it may stand.
-struct Clutter {
-  Vec2 center;
-  double radius;
-};
-
-bool far_from(const std::vector<Clutter>& clutter, Vec2 point, double gap) {
-  return std::all_of(clutter.begin(), clutter.end(),
-                     [&](const Clutter& c) { return geom::norm(c.center - point) >= c.radius + gap; });
-}
-
-std::vector<Vec2> inscribed_polygon(const Clutter& clutter, Rng& rng) {
-  const int corners = 3 + rng.below(5);
-  const double turn = rng.uniform(0.0, 2.0 * kPi);
-  std::vector<Vec2> polygon;
-  for (int i = 0; i < corners; ++i) {
-    // Each corner keeps to the middle 60 % of its share of the circle: no needles, no coinciding corners.
-    const double angle = turn + 2.0 * kPi * (i + rng.uniform(-0.3, 0.3)) / corners;
-    polygon.push_back(clutter.center + clutter.radius * geom::unit(angle));
-  }
-  return polygon;
-}
 
 bool scatter_obstacles(Scenario& scenario, std::vector<Clutter>& clutter, int count, Rng& rng) {
   const double side = scenario.bounds.high.x;
