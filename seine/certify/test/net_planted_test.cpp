@@ -135,6 +135,48 @@ TEST(PlantedNet, APoleForAnInstant) {
   EXPECT_NEAR(pole(-0.1).net.obstacles.clearance, 0.1, 1e-2);
 }
 
+TEST(PlantedNet, ABulgeBetweenLooks) {
+  // A square drives a flat arc at an even speed, its side's highest instant at 0.3 of the way, in one cell. A
+  // pole above it is touched then only; another one is always nearer but clear, so that no look is taken only
+  // because it is the closest.
+  traj::TeamTrajectory plan;
+  constexpr double kRise = 0.03;
+  for (const Vec2 corner : square(1.0)) {
+    plan.robots.push_back(straight({corner.x, corner.y, 0.0}, 1.0, 1.0));
+    traj::Segment& segment = plan.robots.back().segments.front();
+    const double bend = kRise / 0.49;
+    segment.curve = {{{{corner.x, 1.0, 0, 0, 0, 0}, {corner.y, 0.6 * bend, -bend, 0, 0, 0}}}};
+    segment.progress = {{0.0, 1.0, 0, 0, 0, 0}}, segment.piece_duration = 1.0;
+  }
+  NetTeam team = net_team(plan, square(1.2), {0.0, 0.0});
+  team.scenario.models[0].footprint = vehicle::rectangle_footprint(1.5, 0.4, 0.25);
+  const double top = 1.0 + 0.09 * kRise / 0.49;
+  for (const double touch : {-5e-4, 5e-4}) {
+    team.scenario.obstacles = {
+        {.name = "",
+         .shape = std::vector<Vec2>{{0.4, top + 2e-4}, {0.5, top + 2e-4}, {0.45, 2.0}},
+         .motion = {}},
+        {.name = "",
+         .shape = std::vector<Vec2>{{0.0, top - touch}, {0.1, top - touch}, {0.05, 2.0}},
+         .motion = {}}};
+    EXPECT_EQ(breaks(team.judge(), Kind::net_obstacle), touch > 0.0) << summary(team.judge());
+  }
+}
+
+TEST(PlantedNet, ATurningBarBetweenLooks) {
+  // Its tip sweeps over the side of a net that stands still, in one cell.
+  NetTeam team = parked_team(square(1.0), square(1.2));
+  team.scenario.models[0].footprint = vehicle::rectangle_footprint(10.0, 0.4, 1.0);
+  const std::vector<Vec2> bar{{0.0, -0.01}, {1.0, 0.0}, {0.0, 0.01}};
+  for (const double touch : {-5e-4, 5e-4}) {
+    const double y = 2.0 - touch;
+    team.scenario.obstacles = {
+        {.name = "", .shape = std::vector<Vec2>{{0.4, 1.0002}, {0.5, 1.0002}, {0.45, 2.0}}, .motion = {}},
+        {.name = "", .shape = bar, .motion = {{0.0, {0.0, y, -2.2}}, {1.0, {0.0, y, -1.1}}}}};
+    EXPECT_EQ(breaks(team.judge(), Kind::net_obstacle), touch > 0.0) << summary(team.judge());
+  }
+}
+
 TEST(PlantedNet, PolesInside) {
   // Between the corners all the way, never near an edge: it moves with the team.
   NetTeam team = driving_team(square(1.0), square(1.2), 4.0, 2.0);
