@@ -18,7 +18,10 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <optional>
+
+#include "seine/net/shape.hpp"
 
 namespace seine::net {
 namespace {
@@ -271,6 +274,31 @@ double loaded_depth(const Net& net, std::span<const Vec2> attachments) {
     });
   }
   return std::sqrt(deepest);
+}
+
+double holding_reserve(const Net& net, std::span<const Vec2> attachments) {
+  assert(net.size() >= 3 && attachments.size() == net.size());
+  const auto slack = [&](std::size_t i, std::size_t j) {
+    return geom::squared_norm(net.rest[i] - net.rest[j]) -
+           geom::squared_norm(attachments[i] - attachments[j]);
+  };
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < net.size(); ++i) {
+    const std::size_t j = i + 1 == net.size() ? 0 : i + 1;
+    const double edge = slack(i, j);
+    for (std::size_t k = 0; k < net.size(); ++k) {
+      if (k != i && k != j) least = std::min(least, slack(i, k) + slack(j, k) - edge);
+    }
+  }
+  return least;
+}
+
+double holding_margin(const Net& net, std::span<const Vec2> attachments) {
+  const std::vector<Hanging> all = equilibria(net.rest, attachments, net.rim());
+  double least = all.empty() ? 0.0 : std::numeric_limits<double>::infinity();
+  for (const Hanging& hanging : all)
+    least = std::min(least, hanging.at_edge ? 0.0 : margin_inside(net.rest, hanging.contact));
+  return least;
 }
 
 }  // namespace seine::net

@@ -32,4 +32,14 @@ std::vector<Hanging> equilibria(std::span<const geom::Vec2> rest, std::span<cons
 /// near a regular shape do; some microseconds up to eight corners.
 double loaded_depth(const Net& net, std::span<const geom::Vec2> attachments);
 
+/// How well the net keeps what lies in it away from its edges, m². The least of G_ik + G_jk − G_ij over all
+/// ring edges (i, j) and other corners k, with G_ij = |r_i − r_j|² − |a_i − a_j|²: an edge that has more
+/// slack than its ends have to the rest of the net lets the load roll out over it. Below 0 there is an
+/// equilibrium at an edge; at 0 and above there is none. Piecewise quadratic in the attachments.
+double holding_reserve(const Net& net, std::span<const geom::Vec2> attachments);
+
+/// How far from the net's edges, along the cloth (m), its load comes to rest: the least over all equilibria,
+/// 0 when one is at an edge or there is none.
+double holding_margin(const Net& net, std::span<const geom::Vec2> attachments);
+
 }  // namespace seine::net

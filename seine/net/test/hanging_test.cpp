@@ -4,8 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 
 #include "seine/geom/box.hpp"
@@ -152,6 +154,41 @@ TEST(Equilibria, AreReachableAndNothingNearThemIsLower) {
     }
   }
   EXPECT_GT(several, 10) << "seed " << kSeed + 2;
+}
+
+TEST(HoldingReserve, IsNegativeExactlyWhereALoadRestsAtAnEdge) {
+  Rng rng(kSeed + 3);
+  int rolls_out = 0;
+  for (int round = 0; round < 2000; ++round) {
+    const Net net = net_of(random_convex(rng, 3 + static_cast<std::size_t>(rng.below(5))));
+    const std::vector<Vec2> hold = random_hold(rng, net.rest);
+    const std::vector<Hanging> all = equilibria(net.rest, hold, 2.0);
+    const bool at_edge = std::any_of(all.begin(), all.end(), [](const Hanging& h) { return h.at_edge; });
+    EXPECT_EQ(holding_reserve(net, hold) < 0.0, at_edge) << "round " << round << ", seed " << kSeed + 3;
+    EXPECT_EQ(holding_margin(net, hold) == 0.0, at_edge) << "round " << round << ", seed " << kSeed + 3;
+    rolls_out += at_edge;
+  }
+  EXPECT_GT(rolls_out, 100);
+}
+
+TEST(HoldingMargin, OfARegularNetIsItsInradius) {
+  for (const std::size_t corners : {3u, 4u, 6u}) {
+    const Net net = net_of(regular_polygon(corners, 1.3));
+    const std::vector<Vec2> hold = regular_polygon(corners, 1.3 * 0.88);
+    EXPECT_NEAR(holding_margin(net, hold), 1.3 * std::cos(std::numbers::pi / static_cast<double>(corners)),
+                1e-9);
+    EXPECT_GT(holding_reserve(net, hold), 0.5);
+  }
+}
+
+// Two opposite sides let go, the others tight: a sheared square drops its load over a slack side.
+TEST(HoldingMargin, AShearedSquareLosesItsLoad) {
+  const Net net = net_of({{0.0, 0.0}, {2.0, 0.0}, {2.0, 2.0}, {0.0, 2.0}});
+  const std::vector<Vec2> narrowed{{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.85}, {0.0, 1.85}};
+  EXPECT_NEAR(holding_margin(net, narrowed), 1.0, 1e-9);
+  const std::vector<Vec2> sheared{{0.0, 0.0}, {1.0, 0.0}, {1.8, 1.65}, {0.8, 1.65}};
+  EXPECT_EQ(holding_margin(net, sheared), 0.0);
+  EXPECT_LT(holding_reserve(net, sheared), 0.0);
 }
 
 // The three cases of data/vvcm_fk/vectors.json, in millimetres.
