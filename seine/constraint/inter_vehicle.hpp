@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
+#include <initializer_list>
 
 #include "seine/geom/vec2.hpp"
 
@@ -145,5 +147,30 @@ inline double inter_vehicle(const OrientedBox& a, const OrientedBox& b, PairGrad
   gradient = {normal, turn(normal, arm_a, a.direction), -normal, turn(-normal, arm_b, b.direction)};
   return distance;
 }
+
+/// Pairs side by side, the same signed distance without a branch. In: the boxes, where b's middle lies from
+/// a's. Out: the gap and its gradient in the form that a contact has: along the normal, and by the headings.
+struct PairLanes {
+  static constexpr int kLanes = 32;
+  static constexpr int kBlock = 8;  ///< lanes computed at once
+  using Row = double[kLanes];
+  alignas(64) Row apart_x, apart_y;  ///< middle of b − middle of a
+  alignas(64) Row direction_ax, direction_ay, direction_bx, direction_by;
+  alignas(64) Row offset_a, length_a, width_a, offset_b, length_b,
+      width_b;                              ///< offset; half length and width
+  alignas(64) Row gap, normal_x, normal_y;  ///< normal: ∂gap/∂position of b, and minus that of a
+  alignas(64) Row turn_a, turn_b;           ///< ∂gap/∂heading
+};
+/// Lays a pair into lane j.
+inline void put(const OrientedBox& a, const OrientedBox& b, PairLanes& lanes, std::size_t j) {
+  const geom::Vec2 apart = (b.position + b.offset * b.direction) - (a.position + a.offset * a.direction);
+  lanes.apart_x[j] = apart.x, lanes.apart_y[j] = apart.y;
+  lanes.direction_ax[j] = a.direction.x, lanes.direction_ay[j] = a.direction.y;
+  lanes.direction_bx[j] = b.direction.x, lanes.direction_by[j] = b.direction.y;
+  lanes.offset_a[j] = a.offset, lanes.length_a[j] = a.half_length, lanes.width_a[j] = a.half_width;
+  lanes.offset_b[j] = b.offset, lanes.length_b[j] = b.half_length, lanes.width_b[j] = b.half_width;
+}
+/// @param count of pairs present, from lane 0; what follows them in the last block is overwritten
+void inter_vehicle(PairLanes& lanes, int count);
 
 }  // namespace seine::constraint

@@ -168,7 +168,7 @@ void JointProblem::pull_back(std::size_t robot) {
 // the other.
 double JointProblem::team_cost(double knee) {
   const double weight = settings_.penalty * settings_.pair_penalty * tick_;
-  workers_.run(Proximity::kChunks, [&](int chunk) {
+  workers_.run(proximity_.chunks(), [&](int chunk) {
     chunk_costs_[static_cast<std::size_t>(chunk)] = proximity_.evaluate(chunk, states_, weight, knee);
   });
   double cost = 0.0;

@@ -1,6 +1,7 @@
 #include "seine/trajopt/proximity.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "seine/constraint/footprint_distance.hpp"
@@ -32,113 +33,137 @@ Proximity::Proximity(std::vector<Shape> shapes, std::vector<const Body*> bodies,
                      double clearance, int ticks)
     : shapes_(std::move(shapes)),
       bodies_(std::move(bodies)),
-      extra_(std::move(extra)),
-      clearance_(clearance),
       ticks_(ticks),
       near_(static_cast<std::size_t>(ticks)),
-      needed_(shapes_.size()) {}
-
-double Proximity::clearance_of(int a, int b) const {
-  const std::size_t cars = shapes_.size(),
-                    column = b < 0 ? cars + static_cast<std::size_t>(-1 - b) : static_cast<std::size_t>(b);
-  const double base = b < 0 ? bodies_[column - cars]->clearance : clearance_;
-  return base +
-         (extra_.empty() ? 0.0 : extra_[static_cast<std::size_t>(a) * (cars + bodies_.size()) + column]);
-}
-
-// Distance beyond the wanted clearance, roughly and from below.
-double Proximity::gap(const Near& near, int tick, std::span<const ClockState> states) const {
-  const auto index = [](auto i) { return static_cast<std::size_t>(i); };
-  const auto middle = [](const Shape& shape, Vec2 position, Vec2 direction) {
-    return position + shape.offset * direction;
-  };
-  const Shape& shape_a = shapes_[index(near.a)];
-  const ClockState& a = states[index(near.a * ticks_ + tick)];
-  const Vec2 middle_a = middle(shape_a, a.position, a.direction);
-  const double margin = shape_a.reach + clearance_of(near.a, near.b);
-  if (near.b < 0) {
-    const Body& body = *bodies_[index(-1 - near.b)];
-    const Placement& at = body.placements[std::min(index(tick), body.placements.size() - 1)];
-    return geom::norm(middle(body.shape, at.position, at.direction) - middle_a) - body.shape.reach -
-           body.radius - margin;
+      needed_(shapes_.size()) {
+  const std::size_t columns = shapes_.size() + bodies_.size();
+  for (std::size_t i = 0; i < columns; ++i) {
+    const Shape& s = shape(static_cast<int>(i));
+    outlines_.push_back({s.offset, s.half_length, s.half_width, s.rectangle});
   }
-  const ClockState& b = states[index(near.b * ticks_ + tick)];
-  const Shape& shape_b = shapes_[index(near.b)];
-  return geom::norm(middle(shape_b, b.position, b.direction) - middle_a) - shape_b.reach - margin;
+  for (std::size_t a = 0; a < shapes_.size(); ++a)
+    for (std::size_t b = 0; b < columns; ++b) {
+      const auto index = static_cast<int>(b);
+      const double base = is_car(index) ? clearance : body(index).clearance + body(index).radius;
+      wanted_.push_back(base + (extra.empty() ? 0.0 : extra[a * columns + b]));
+      reach_.push_back(wanted_.back() + shapes_[a].reach + shape(index).reach);
+    }
 }
 
 void Proximity::watch(const Near& near, int coarse, bool closely) {
-  const int from = closely ? std::max(0, coarse - kStride / 2 + 1) : coarse;
+  const int from = closely ? std::max(0, coarse - (kStride - 1) / 2) : coarse;
   const int to = closely ? std::min(ticks_ - 1, coarse + kStride / 2) : coarse;
   for (int tick = from; tick <= to; ++tick) near_[static_cast<std::size_t>(tick)].push_back(near);
 }
 
 void Proximity::rebuild(std::span<const ClockState> states, double skin, double close) {
   for (auto& list : near_) list.clear();
-  const auto cars = static_cast<int>(shapes_.size()), bodies = static_cast<int>(bodies_.size());
-  for (int tick = 0; tick < ticks_; tick += kStride)
-    for (int a = 0; a < cars; ++a) {
-      const auto consider = [&](int b) {
-        const double g = gap({a, b}, tick, states);
-        if (g < skin) watch({a, b}, tick, g < close);
-      };
-      for (int b = a + 1; b < cars; ++b) consider(b);
-      for (int k = 0; k < bodies; ++k) consider(-1 - k);
+  const std::size_t columns = outlines_.size();
+  std::vector<Vec2> middles(columns);
+  for (int tick = 0; tick < ticks_; tick += kStride) {
+    for (std::size_t i = 0; i < columns; ++i) {
+      const Placement at = placement(static_cast<int>(i), tick, states);
+      middles[i] = at.position + outlines_[i].offset * at.direction;
     }
+    for (std::size_t a = 0; a < shapes_.size(); ++a)
+      for (std::size_t b = a + 1; b < columns; ++b) {
+        const double squared = geom::squared_norm(middles[b] - middles[a]);
+        const auto within = [&](double more) {
+          const double reach = reach_[a * columns + b] + more;
+          return squared < reach * reach;
+        };
+        if (within(skin)) watch({static_cast<int>(a), static_cast<int>(b)}, tick, within(close));
+      }
+  }
   for (auto& list : needed_) list.clear();
   for (int tick = 0; tick < ticks_; ++tick)
     for (const Near& near : near_[static_cast<std::size_t>(tick)])
       for (const int car : {near.a, near.b}) {
-        if (car < 0) continue;
+        if (!is_car(car)) continue;
         auto& list = needed_[static_cast<std::size_t>(car)];
         if (list.empty() || list.back() != tick) list.push_back(tick);
       }
 }
 
-double Proximity::evaluate(int chunk, std::span<ClockState> states, double weight, double knee) const {
-  const int from = ticks_ * chunk / kChunks, to = ticks_ * (chunk + 1) / kChunks;
+// Two bodies within reach of each other at one tick.
+struct Proximity::Pair {
+  ClockState* a;
+  ClockState* b;  // null: its motion is given
+  double wanted;
+};
+
+// Pairs of rectangles, waiting for the vector code.
+struct Proximity::Batch {
+  constraint::PairLanes lanes;
+  std::array<Pair, constraint::PairLanes::kLanes> pairs;
+  std::size_t count = 0;
+
+  void add(const Pair& pair, const constraint::OrientedBox& a, const constraint::OrientedBox& b) {
+    constraint::put(a, b, lanes, count);
+    pairs[count++] = pair;
+  }
+  double flush(const Penalty& penalty);
+};
+
+double Proximity::Batch::flush(const Penalty& penalty) {
+  constraint::inter_vehicle(lanes, static_cast<int>(count));
   double cost = 0.0;
-  for (int tick = from; tick < to; ++tick)
-    for (const Near& near : near_[static_cast<std::size_t>(tick)])
-      cost += one(near, tick, states, weight, knee);
+  for (std::size_t j = 0; j < count; ++j) {
+    const Pair& pair = pairs[j];
+    if (lanes.gap[j] >= pair.wanted) continue;
+    double slope;
+    cost += penalty.weight * math::hinge(pair.wanted - lanes.gap[j], penalty.knee, slope);
+    const double push = penalty.weight * slope;
+    const Vec2 normal = push * Vec2{lanes.normal_x[j], lanes.normal_y[j]};
+    pair.a->g_position += normal;
+    pair.a->g_direction -= (push * lanes.turn_a[j]) * geom::left_normal(pair.a->direction);
+    if (pair.b == nullptr) continue;
+    pair.b->g_position -= normal;
+    pair.b->g_direction -= (push * lanes.turn_b[j]) * geom::left_normal(pair.b->direction);
+  }
+  count = 0;
   return cost;
 }
 
-double Proximity::one(const Near& near, int tick, std::span<ClockState> states, double weight,
-                      double knee) const {
-  const auto index = [](auto i) { return static_cast<std::size_t>(i); };
-  const bool given = near.b < 0;
-  const Body* body = given ? bodies_[index(-1 - near.b)] : nullptr;
-  const Shape& shape_a = shapes_[index(near.a)];
-  const Shape& shape_b = given ? body->shape : shapes_[index(near.b)];
-  ClockState& a = states[index(near.a * ticks_ + tick)];
-  ClockState* b = given ? nullptr : &states[index(near.b * ticks_ + tick)];
-  const Placement at = given ? body->placements[std::min(index(tick), body->placements.size() - 1)]
-                             : Placement{b->position, b->direction};
-  const double wanted = clearance_of(near.a, near.b) + (given ? body->radius : 0.0);
-  const Vec2 apart =
-      (at.position + shape_b.offset * at.direction) - (a.position + shape_a.offset * a.direction);
-  const double reach = shape_a.reach + shape_b.reach + wanted;
-  if (geom::squared_norm(apart) > reach * reach) return 0.0;
+double Proximity::evaluate(int chunk, std::span<ClockState> states, double weight, double knee) const {
+  const int from = ticks_ * chunk / chunks(), to = ticks_ * (chunk + 1) / chunks();
+  const Penalty penalty{weight, math::Knee(knee)};
+  Batch batch;
+  double cost = 0.0;
+  for (int tick = from; tick < to; ++tick)
+    for (const Near& near : near_[static_cast<std::size_t>(tick)]) {
+      const auto i = static_cast<std::size_t>(near.a), k = static_cast<std::size_t>(near.b);
+      ClockState& a = states[i * static_cast<std::size_t>(ticks_) + static_cast<std::size_t>(tick)];
+      const Outline &of_a = outlines_[i], &of_b = outlines_[k];
+      const Placement b = placement(near.b, tick, states);
+      const Vec2 apart = (b.position + of_b.offset * b.direction) - (a.position + of_a.offset * a.direction);
+      const std::size_t entry = i * outlines_.size() + k;
+      if (geom::squared_norm(apart) > reach_[entry] * reach_[entry]) continue;
+      const Pair pair{&a,
+                      is_car(near.b) ? &states[static_cast<std::size_t>(near.b * ticks_ + tick)] : nullptr,
+                      wanted_[entry]};
+      if (of_a.rectangle && of_b.rectangle)
+        batch.add(pair, {a.position, a.direction, of_a.offset, of_a.half_length, of_a.half_width},
+                  {b.position, b.direction, of_b.offset, of_b.half_length, of_b.half_width});
+      else
+        cost += polygons(pair, shape(near.a), shape(near.b), b, penalty);
+      if (batch.count == batch.pairs.size()) cost += batch.flush(penalty);
+    }
+  return cost + batch.flush(penalty);
+}
 
-  constraint::PairGradient g;
-  double gap;
-  if (shape_a.rectangle && shape_b.rectangle) {
-    gap = constraint::inter_vehicle(
-        {a.position, a.direction, shape_a.offset, shape_a.half_length, shape_a.half_width},
-        {at.position, at.direction, shape_b.offset, shape_b.half_length, shape_b.half_width}, g);
-  } else {
-    constraint::FootprintGradient f;
-    gap = constraint::footprint_distance(a.position, a.direction, shape_a.footprint, at.position,
-                                         at.direction, shape_b.footprint, f);
-    g = {f.position_a, f.direction_a, f.position_b, f.direction_b};
-  }
-  if (gap >= wanted) return 0.0;
+double Proximity::polygons(const Pair& pair, const Shape& shape_a, const Shape& shape_b, const Placement& b,
+                           const Penalty& penalty) {
+  constraint::FootprintGradient g;
+  const double gap = constraint::footprint_distance(pair.a->position, pair.a->direction, shape_a.footprint,
+                                                    b.position, b.direction, shape_b.footprint, g);
+  if (gap >= pair.wanted) return 0.0;
   double slope;
-  const double cost = weight * math::hinge(wanted - gap, knee, slope);
-  a.g_position -= weight * slope * g.position_a, a.g_direction -= weight * slope * g.direction_a;
-  if (b != nullptr)
-    b->g_position -= weight * slope * g.position_b, b->g_direction -= weight * slope * g.direction_b;
+  const double cost = penalty.weight * math::hinge(pair.wanted - gap, penalty.knee, slope);
+  const double push = penalty.weight * slope;
+  pair.a->g_position -= push * g.position_a, pair.a->g_direction -= push * g.direction_a;
+  if (pair.b != nullptr)
+    pair.b->g_position -= push * g.position_b, pair.b->g_direction -= push * g.direction_b;
   return cost;
 }
 

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
 #include "seine/geom/convex.hpp"
+#include "seine/math/hinge.hpp"
 #include "seine/trajopt/robot_problem.hpp"
 
 namespace seine::trajopt {
@@ -35,11 +37,6 @@ struct Body {
 /// ticks, so that threads never write to the same place and sums do not depend on their number.
 class Proximity {
  public:
-  struct Near {
-    int a;
-    int b;  ///< another car, or −1 − body
-  };
-
   /// @param bodies must outlive this  @param extra cars × (cars + bodies): what repair rounds add to a
   /// clearance; may be empty
   Proximity(std::vector<Shape> shapes, std::vector<const Body*> bodies, std::vector<double> extra,
@@ -54,21 +51,52 @@ class Proximity {
   /// Ticks at which a car is near anything, ascending.
   const std::vector<int>& ticks_of(int car) const { return needed_[static_cast<std::size_t>(car)]; }
 
+  /// At most kChunks; by the problem, not by the threads.
   static constexpr int kChunks = 16;
-  /// Cost of all distances in one chunk of ticks; writes ∂J/∂ of both cars into `states`.
+  int chunks() const { return shapes_.size() == 1 ? 1 : kChunks; }
+  /// Cost of all distances in one chunk of ticks; adds ∂J/∂ of both cars to `states`.
   double evaluate(int chunk, std::span<ClockState> states, double weight, double knee) const;
 
  private:
-  double one(const Near& near, int tick, std::span<ClockState> states, double weight, double knee) const;
-  double clearance_of(int a, int b) const;
-  double gap(const Near& near, int tick, std::span<const ClockState> states) const;
+  /// Cars come first in all numberings, then the bodies.
+  struct Near {
+    int a;
+    int b;
+  };
+  struct Outline {
+    double offset, half_length, half_width;
+    bool rectangle;
+  };
+  struct Penalty {
+    double weight;
+    math::Knee knee;
+  };
+  struct Pair;
+  struct Batch;
+
+  static double polygons(const Pair& pair, const Shape& shape_a, const Shape& shape_b, const Placement& b,
+                         const Penalty& penalty);
   void watch(const Near& near, int coarse, bool closely);
+  bool is_car(int index) const { return static_cast<std::size_t>(index) < shapes_.size(); }
+  const Body& body(int index) const { return *bodies_[static_cast<std::size_t>(index) - shapes_.size()]; }
+  const Shape& shape(int index) const {
+    return is_car(index) ? shapes_[static_cast<std::size_t>(index)] : body(index).shape;
+  }
+  Placement placement(int index, int tick, std::span<const ClockState> states) const {
+    if (!is_car(index)) {
+      const auto& all = body(index).placements;
+      return all[std::min(static_cast<std::size_t>(tick), all.size() - 1)];
+    }
+    const ClockState& state = states[static_cast<std::size_t>(index * ticks_ + tick)];
+    return {state.position, state.direction};
+  }
 
   std::vector<Shape> shapes_;
   std::vector<const Body*> bodies_;
-  std::vector<double> extra_;
-  double clearance_;
   int ticks_;
+  std::vector<Outline> outlines_;  // of cars and bodies
+  std::vector<double> wanted_;     // cars × (cars + bodies): clearance, rounding included
+  std::vector<double> reach_;      // likewise: middles further apart than this are clear in any attitude
   std::vector<std::vector<Near>> near_;   // per tick
   std::vector<std::vector<int>> needed_;  // per car
 };
