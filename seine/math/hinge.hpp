@@ -19,6 +19,8 @@ inline double hinge(double x, const Knee& knee, double& slope) {
   slope = r * r * (3.0 - 2.0 * r);
   return inside * r * r * (1.0 - 0.5 * r) + (positive - inside);
 }
-inline double hinge(double x, double knee, double& slope) { return hinge(x, Knee(knee), slope); }
+inline double hinge(double x, double knee, double& slope) {
+  return hinge(x, Knee(knee), slope);
+}
 
 }  // namespace seine::math
