@@ -10,7 +10,7 @@
 
 namespace seine::net {
 
-// When a catch that is one in geometry is one in physics. The numbers come from some 20 000 drops into
+// When a catch that is one in geometry is one in physics. The numbers come from over 12 000 drops into
 // simulated nets of three, four and six corners, checked against a second engine (docs/net.md, "Why these
 // limits"). All velocities are relative to the formation.
 
