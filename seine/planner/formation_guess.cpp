@@ -12,12 +12,12 @@ namespace {
 using geom::Vec2;
 using search::Formation;
 
-constexpr double kGoalShare = 0.7;      // of the delivery's radius
-constexpr double kChangeLength = 5.0;   // car lengths over which the formation changes shape
-constexpr int kQuickExpansions = 1500;  // as the crow flies; then around what is tall
-constexpr int kFieldExpansions = 6000;
-constexpr int kShapeExpansions = 2500;
-constexpr std::size_t kShapes = 24;  // tried in one call
+constexpr double kGoalShare = 0.7;       // of the delivery's radius
+constexpr double kChangeLength = 5.0;    // car lengths over which the formation changes shape
+constexpr int kQuickExpansions = 1500;   // as the crow flies, as at the start
+constexpr int kShapeExpansions = 12000;  // around what is tall, in shapes for narrow places too
+constexpr double kGreedy = 2.5;          // weight of what is left, for a way soon instead of a fast one
+constexpr double kHoldPace = 0.8;        // of the top speed: how far a team drives while it holds a catch
 
 search::FormationProblem problem_for(const world::Scenario& scenario, const world::StaticMap& map,
                                      const NetQuestion& question, const Deadline& deadline) {
@@ -25,7 +25,12 @@ search::FormationProblem problem_for(const world::Scenario& scenario, const worl
   problem.scenario = &scenario, problem.map = &map, problem.tall = question.tall.get();
   problem.start = search::formation_frame(scenario);
   problem.start_speed = scenario.robots.front().start_speed;
-  problem.before = problem.after = search::start_formation(scenario);
+  problem.shapes = {search::start_formation(scenario)};
+  // The optimiser opens the net over what is low; narrow shapes leave it no room to.
+  problem.shapes.front().lowest = std::numeric_limits<double>::infinity();
+  problem.hold = kHoldPace * net::kHoldTime * scenario.models.front().limits.speed;
+  for (const trajopt::LowObstacle& low : question.task.low)
+    problem.low.push_back({low.shape, low.height + scenario.net->clearance});
   problem.meetings = question.meetings;
   problem.deadline = deadline;
   if (scenario.delivery) {
@@ -36,73 +41,61 @@ search::FormationProblem problem_for(const world::Scenario& scenario, const worl
 }
 
 // Where every robot has a goal of its own the formation ends as they stand there.
-void end_at_goals(const world::Scenario& scenario, search::FormationProblem& problem) {
+std::optional<Formation> goal_formation(const world::Scenario& scenario, search::FormationProblem& problem) {
   Vec2 frame, direction;
   for (const world::Robot& robot : scenario.robots) {
-    if (!robot.goal) return;
+    if (!robot.goal) return std::nullopt;
     frame += robot.goal->position() / static_cast<double>(scenario.robots.size());
     direction += robot.goal->direction();
   }
   const double heading = std::atan2(direction.y, direction.x);
-  for (std::size_t k = 0; k < scenario.robots.size(); ++k)
-    problem.after.offsets[k] = scenario.robots[k].goal->position() - frame;
+  Formation formation;
+  for (const world::Robot& robot : scenario.robots)
+    formation.offsets.push_back(robot.goal->position() - frame);
   std::vector<Vec2> ring;
-  search::attachments_at(scenario, problem.after, {frame.x, frame.y, heading}, ring);
+  search::attachments_at(scenario, formation, {frame.x, frame.y, heading}, ring);
   Vec2 middle;
   for (const Vec2 a : ring) middle += a / static_cast<double>(ring.size());
   problem.goal = search::FormationGoal{middle, 0.5 * scenario.models.front().length(), heading};
+  return formation;
 }
 
-FormationGuess assemble(search::FormationPath way, const search::FormationProblem& problem) {
+// Those that just clear the ground, and those that clear everything low as well.
+void add_narrow_shapes(const world::Scenario& scenario, const NetQuestion& question,
+                       search::FormationProblem& problem) {
+  const bool loaded = std::isfinite(question.task.loaded_from);
+  double highest = 0.0;
+  for (const search::LowPiece& low : problem.low) highest = std::max(highest, low.height);
+  for (const double above : {scenario.net->clearance, highest}) {
+    if (above <= 0.0) continue;
+    for (Formation& shape : search::narrow_shapes(scenario, problem.start.heading, loaded, above))
+      problem.shapes.push_back(std::move(shape));
+  }
+}
+
+// The lattice changes shape at a point; the guess has changed by then, over a few car lengths.
+FormationGuess assemble(search::FormationPath way, const search::FormationProblem& problem,
+                        const std::optional<Formation>& last) {
   FormationGuess guess;
   guess.timing = search::time_formation(way, problem);
-  guess.shapes = {search::start_formation(*problem.scenario)};
   const double change = kChangeLength * problem.scenario->models.front().length(), length = way.path.length();
-  // The net stays as it is until it has held its catch for a while.
-  const search::TimedPath timed{way.path, guess.timing.profile};
-  const double last = way.meeting_s.empty() ? 0.0 : timed.at(problem.meetings.back().time + net::kHoldTime).s;
-  const auto change_to = [&](const Formation& shape, double begin) {
-    if (shape.offsets == guess.shapes.back().offsets) return;
+  guess.shapes = {problem.shapes.front()};
+  const auto change_to = [&](const Formation& shape, double begin, double end) {
+    const double after = guess.changes.empty() ? 0.0 : guess.changes.back().end;
     guess.shapes.push_back(shape);
-    guess.changes.push_back({begin, std::min(begin + change, length)});
+    guess.changes.push_back({std::max(begin, after), std::max(end, after + 0.1 * change)});
   };
-  if (last > 0.0) change_to(problem.before, 0.0);
-  change_to(problem.after, last);
+  for (std::size_t i = 1; i < way.shapes.size(); ++i) {
+    double earliest = 0.0;
+    for (const double s : way.meeting_s)
+      if (s < way.shapes[i].s) earliest = std::min(s + problem.hold, way.shapes[i].s);
+    const double end = std::max(way.shapes[i].s, earliest + 0.2 * change);
+    change_to(problem.shapes[static_cast<std::size_t>(way.shapes[i].shape)], std::max(end - change, earliest),
+              end);
+  }
+  if (last) change_to(*last, std::max(0.0, length - change), length);
   guess.way = std::move(way);
   return guess;
-}
-
-std::optional<FormationGuess> search_with(search::FormationProblem& problem,
-                                          const search::FormationSettings& settings) {
-  auto way = search::search_formation(problem, settings);
-  if (!way) return std::nullopt;
-  return assemble(std::move(*way), problem);
-}
-
-// Narrower and turned shapes, those first that are narrow across the narrowest place of the way.
-std::optional<FormationGuess> search_narrow(search::FormationProblem problem, bool before_too,
-                                            const NetQuestion& question) {
-  const auto place = search::narrowest_place(problem);
-  if (!place) return std::nullopt;
-  const bool loaded = std::isfinite(question.task.loaded_from);
-  std::vector<search::NarrowShape> shapes =
-      search::narrow_shapes(*problem.scenario, problem.start.heading, loaded);
-  const auto off = [&](const search::NarrowShape& shape) {
-    return std::abs(std::sin(shape.along - place->along));
-  };
-  std::stable_sort(shapes.begin(), shapes.end(),
-                   [&](const search::NarrowShape& a, const search::NarrowShape& b) {
-                     return a.width + off(a) < b.width + off(b);
-                   });
-  if (shapes.size() > kShapes) shapes.resize(kShapes);
-  const search::FormationSettings settings{.max_expansions = kShapeExpansions, .field = true};
-  for (const search::NarrowShape& shape : shapes) {
-    if (problem.deadline.expired()) break;
-    problem.after = shape.formation;
-    if (before_too) problem.before = shape.formation;
-    if (auto guess = search_with(problem, settings)) return guess;
-  }
-  return std::nullopt;
 }
 
 }  // namespace
@@ -111,29 +104,21 @@ std::optional<FormationGuess> guess_formation(const world::Scenario& scenario, c
                                               const NetQuestion& question, int attempt,
                                               const Deadline& deadline, std::string& reason) {
   search::FormationProblem problem = problem_for(scenario, map, question, deadline);
-  if (!problem.goal) end_at_goals(scenario, problem);
-  std::optional<FormationGuess> guess;
-  switch (attempt) {
-    case 0:
-      guess = search_with(problem, {.max_expansions = kQuickExpansions});
-      break;
-    case 1:
-      guess = search_with(problem, {.max_expansions = kFieldExpansions, .field = true});
-      break;
-    case 2:
-      guess = search_narrow(problem, false, question);
-      break;
-    case 3:
-      if (!problem.meetings.empty()) guess = search_narrow(problem, true, question);
-      break;
-    case 4:
-      guess = search_with(problem, {.max_expansions = kFieldExpansions, .backward = false, .field = true});
-      break;
-    default:
-      guess = search_with(problem, {.max_expansions = kFieldExpansions, .forward = false, .field = true});
+  std::optional<Formation> last;
+  if (!problem.goal) last = goal_formation(scenario, problem);
+  search::FormationSettings settings{.max_expansions = kQuickExpansions};
+  if (attempt > 0) {
+    settings = {.max_expansions = kShapeExpansions, .field = true};
+    if (attempt % 2 == 1) settings.heuristic_weight = kGreedy;
+    if (attempt == 3) settings.backward = false;
+    add_narrow_shapes(scenario, question, problem);
   }
-  if (!guess) reason = "no passage for the formation found";
-  return guess;
+  auto way = search::search_formation(problem, settings);
+  if (!way) {
+    if (attempt > 0) reason = "no passage for the formation found";
+    return std::nullopt;
+  }
+  return assemble(std::move(*way), problem, last);
 }
 
 }  // namespace seine::planner

@@ -17,6 +17,14 @@ namespace seine::search {
 /// (docs/front-end-formation.md). The frame stands at the mean of the rear axles.
 struct Formation {
   std::vector<geom::Vec2> offsets;  ///< of each car's rear axle from the frame, world axes, m
+  double lowest = 0.0;              ///< m above the ground: what hangs lowest in this shape
+  std::optional<double> along;      ///< rad: a shape for driving through narrow places in this direction
+};
+
+/// Something low enough for the net to pass over when it hangs high enough.
+struct LowPiece {
+  geom::Convex shape;
+  double height = 0.0;  ///< m, with the clearance asked for
 };
 
 /// Somewhere the middle of the net has to be on its way, at a given time.
@@ -40,9 +48,13 @@ struct FormationProblem {
   const world::StaticMap* tall = nullptr;  ///< what the net must not hang over
   geom::Pose2 start;                       ///< of the frame
   double start_speed = 0.0;                ///< m/s, signed
-  Formation before, after;                 ///< held until the last rendezvous, and after it
-  std::vector<Rendezvous> meetings;        ///< in order of time
-  std::optional<FormationGoal> goal;       ///< absent: stop anywhere after the last rendezvous
+  /// The first is held at the start, at every rendezvous and for `hold` metres after it; the others only
+  /// where the first does not pass.
+  std::vector<Formation> shapes;
+  double hold = 0.0;  ///< m
+  std::vector<LowPiece> low;
+  std::vector<Rendezvous> meetings;   ///< in order of time
+  std::optional<FormationGoal> goal;  ///< absent: stop anywhere after the last rendezvous
   Deadline deadline;
 };
 
@@ -53,10 +65,15 @@ struct FormationSettings {
   bool field = false;  ///< distances to go around what is tall, instead of as the crow flies
 };
 
-/// A way of the frame, and where on it each rendezvous is passed.
+/// A way of the frame, where on it each rendezvous is passed, and which shape is held from where on.
 struct FormationPath {
+  struct Shape {
+    double s;  ///< m driven
+    int shape;
+  };
   Path path;
   std::vector<double> meeting_s;  ///< m driven
+  std::vector<Shape> shapes;      ///< begins with the first shape at 0
   int expansions = 0;
 };
 

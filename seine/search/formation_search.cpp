@@ -26,6 +26,8 @@ constexpr double kBackwardTurns[] = {0.0, 0.5, -0.5, 0.88, -0.88};
 constexpr double kCarSlack = 0.05, kNetSlack = 0.05;       // on top of the margins
 constexpr double kCurvedPrice = 0.02;                      // share of a step's time
 constexpr double kSteeringPrice = 0.05, kGearPrice = 1.0;  // of v / a, s
+constexpr double kShapePrice = 0.3;                        // of v / a, s
+constexpr double kAcross = 0.6;  // sine of the angle to its direction at which a narrow shape is of use
 constexpr double kLateralShare = 0.8;
 constexpr double kStopShare = 0.6;  // of the acceleration limit, to stop after the last rendezvous
 
@@ -56,6 +58,7 @@ struct Node {
   double after;  // m driven since the last rendezvous was passed
   int parent;    // −1 at the root
   int phase;     // rendezvous passed
+  int shape;     // held on the way here
   bool checked = false, closed = false;
 };
 
@@ -89,17 +92,22 @@ class Lattice {
   };
 
   int meetings() const { return static_cast<int>(p_.meetings.size()); }
-  Vec2 middle(const Pose2& pose, int phase);
-  const Formation& held(int phase) const { return phase < meetings() ? p_.before : p_.after; }
+  Vec2 middle(const Pose2& pose, int shape);
+  const Formation& shape(int index) const { return p_.shapes[static_cast<std::size_t>(index)]; }
   void legs_ahead();
   void make_fields();
-  double ahead(const Pose2& pose, int phase);
+  double ahead(const Node& node);
   double to(std::size_t place, Vec2 point);
   double time_of(const Arc& arc, const Arc* before) const;
-  bool clear(const Pose2& pose, int phase);
+  bool clear(const Pose2& pose, const Formation& formation);
+  bool clear_below(const Formation& formation) const;
+  bool may_hold(const Node& node) const;
+  void offer_shapes(int index);
+  bool check(int index);
+  void expand(int index);
   bool drive_to(Node& node);
   bool at_goal(const Node& node);
-  void add(int parent, const Arc& move);
+  void add(int parent, const Arc& move, int shape);
   std::uint64_t bin(const Node& node) const;
   void push(int index) {
     open_.push_back({node(index).estimate, index});
@@ -114,6 +122,11 @@ class Lattice {
   Limits limits_;
   double step_, cell_;
   std::vector<Arc> moves_;
+  struct Disc {
+    double ahead, outer, inner;  // m: of the centre along the heading; around, and inside the footprint
+  };
+  std::vector<Disc> discs_;
+  std::unique_ptr<PointDistances> ground_;
   std::vector<double> beyond_;  // per phase: m from the next place to the end of the way, at least
   std::unique_ptr<PointDistances> distances_;
   std::vector<std::unique_ptr<CostToGo>> fields_;  // to each rendezvous, then to the goal
@@ -123,8 +136,8 @@ class Lattice {
   std::vector<Vec2> polygon_, attachments_;
 };
 
-Vec2 Lattice::middle(const Pose2& pose, int phase) {
-  attachments_at(scenario_, held(phase), pose, attachments_);
+Vec2 Lattice::middle(const Pose2& pose, int shape_held) {
+  attachments_at(scenario_, shape(shape_held), pose, attachments_);
   Vec2 sum;
   for (const Vec2 a : attachments_) sum += a;
   return sum / static_cast<double>(attachments_.size());
@@ -146,14 +159,25 @@ void Lattice::legs_ahead() {
 // A disc in the middle of the net, as large as the formation's polygon leaves room for, goes around what is
 // tall.
 void Lattice::make_fields() {
-  attachments_at(scenario_, p_.after, p_.start, attachments_);
-  const Vec2 center = middle(p_.start, meetings());
   double radius = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < attachments_.size(); ++i) {
-    const Vec2 a = attachments_[i], b = attachments_[(i + 1) % attachments_.size()], e = b - a;
-    radius = std::min(radius, geom::cross(e, center - a) / geom::norm(e));
+  for (int k = 0; k < static_cast<int>(p_.shapes.size()); ++k) {
+    const Vec2 center = middle(p_.start, k);
+    for (std::size_t i = 0; i < attachments_.size(); ++i) {
+      const Vec2 a = attachments_[i], b = attachments_[(i + 1) % attachments_.size()], e = b - a;
+      radius = std::min(radius, geom::cross(e, center - a) / geom::norm(e));
+    }
   }
   radius = std::max(0.8 * radius, 0.2 * limits_.length);
+  ground_ = std::make_unique<PointDistances>(*p_.map, 0.15 * limits_.length, 2.0 * limits_.length);
+  for (const world::Robot& robot : scenario_.robots) {
+    const geom::Box box = geom::bounding_box(scenario_.model_of(robot).footprint);
+    Disc disc{box.center().x, 0.0, 0.5 * std::min(box.size().x, box.size().y)};
+    for (const Vec2 corner : scenario_.model_of(robot).footprint)
+      disc.outer = std::max(disc.outer, geom::norm(corner - Vec2{disc.ahead, 0.0}));
+    // Only of a rectangle is the inner disc known to be inside.
+    if (scenario_.model_of(robot).footprint.size() != 4 || std::abs(box.center().y) > 1e-9) disc.inner = 0.0;
+    discs_.push_back(disc);
+  }
   distances_ = std::make_unique<PointDistances>(*p_.tall, 0.5 * radius, 4.0 * radius);
   const DiscWay way{.distances = distances_.get(), .radius = radius};
   for (const Rendezvous& meeting : p_.meetings)
@@ -168,11 +192,11 @@ double Lattice::to(std::size_t place, Vec2 point) {
   return fields_.empty() ? straight : std::max(straight, (*fields_[place])(point));
 }
 
-double Lattice::ahead(const Pose2& pose, int phase) {
-  const auto i = static_cast<std::size_t>(phase);
-  if (phase == meetings() && !p_.goal) return 0.0;
-  const double reach = phase == meetings() ? p_.goal->radius : p_.meetings[i].reach;
-  return (std::max(0.0, to(i, middle(pose, phase)) - reach) + beyond_[i]) / limits_.speed;
+double Lattice::ahead(const Node& here) {
+  const auto i = static_cast<std::size_t>(here.phase);
+  if (here.phase == meetings() && !p_.goal) return 0.0;
+  const double reach = here.phase == meetings() ? p_.goal->radius : p_.meetings[i].reach;
+  return (std::max(0.0, to(i, middle(here.pose, here.shape)) - reach) + beyond_[i]) / limits_.speed;
 }
 
 double Lattice::time_of(const Arc& arc, const Arc* before) const {
@@ -189,30 +213,54 @@ double Lattice::time_of(const Arc& arc, const Arc* before) const {
   return time;
 }
 
-bool Lattice::clear(const Pose2& pose, int phase) {
-  const Formation& formation = held(phase);
+bool Lattice::clear(const Pose2& pose, const Formation& formation) {
   const double clearance = scenario_.margins.obstacle + kCarSlack * limits_.length;
+  const Vec2 forward = pose.direction();
   for (std::size_t k = 0; k < scenario_.robots.size(); ++k) {
     const vehicle::Model& model = scenario_.model_of(scenario_.robots[k]);
     const Vec2 at = pose.position() + formation.offsets[k];
+    if (ground_) {
+      // Most poses are far from everything, or plainly in it.
+      const Disc& disc = discs_[k];
+      const auto room = ground_->bounds(at + disc.ahead * forward);
+      if (room.lower >= disc.outer + clearance) continue;
+      if (room.upper < disc.inner + clearance) return false;
+    }
     polygon_.resize(model.footprint.size());
     geom::place(model.footprint, {at.x, at.y, pose.heading}, polygon_);
     if (!p_.map->clear(polygon_, clearance)) return false;
   }
   attachments_at(scenario_, formation, pose, attachments_);
-  return p_.tall->clear(attachments_, kNetSlack * limits_.length);
+  return p_.tall->clear(attachments_, kNetSlack * limits_.length) && clear_below(formation);
+}
+
+// Whether the net, at attachments_, hangs above everything low that it is over.
+bool Lattice::clear_below(const Formation& formation) const {
+  const geom::Box box = geom::bounding_box(attachments_);
+  for (const LowPiece& low : p_.low) {
+    if (low.height <= formation.lowest || !box.overlaps(low.shape.box())) continue;
+    if (geom::distance_up_to(attachments_, low.shape.core, low.shape.radius + 1.0) < low.shape.radius)
+      return false;
+  }
+  return true;
+}
+
+// A catch wants the net as it was at the start, and for a while after.
+bool Lattice::may_hold(const Node& here) const {
+  return here.shape == 0 || here.phase == 0 || here.after > p_.hold;
 }
 
 // Drives a node's last step pose by pose: clear all the way, and past which rendezvous?
 bool Lattice::drive_to(Node& here) {
   const Node& from = node(here.parent);
+  if (!may_hold(here)) return false;
   for (int i = 1; i <= kChecks; ++i) {
     const double distance = here.arc.distance * i / kChecks;
     const Pose2 pose = vehicle::drive(from.pose, here.arc.curvature, distance);
-    if (!clear(pose, here.phase)) return false;
-    while (here.phase < meetings()) {
+    if (!clear(pose, shape(here.shape))) return false;
+    while (here.phase < meetings() && here.shape == 0) {
       const Rendezvous& meeting = p_.meetings[static_cast<std::size_t>(here.phase)];
-      if (geom::norm(middle(pose, here.phase) - meeting.point) > meeting.reach) break;
+      if (geom::norm(middle(pose, 0) - meeting.point) > meeting.reach) break;
       ++here.phase;
       here.after = -std::abs(distance);
     }
@@ -221,13 +269,25 @@ bool Lattice::drive_to(Node& here) {
   return true;
 }
 
+// Where the way is blocked in one shape it may be clear in another: the first one wherever it fits again, and
+// those that are narrow across the way.
+void Lattice::offer_shapes(int index) {
+  const Node here = node(index);
+  for (int k = 0; k < static_cast<int>(p_.shapes.size()); ++k) {
+    if (k == here.shape) continue;
+    const std::optional<double>& along = shape(k).along;
+    if (along && std::abs(std::sin(*along - here.pose.heading)) > kAcross) continue;
+    add(here.parent, here.arc, k);
+  }
+}
+
 bool Lattice::at_goal(const Node& here) {
   if (here.phase < meetings()) return false;
   if (!p_.goal) {
     const double stop = limits_.speed * limits_.speed / (2.0 * kStopShare * limits_.acceleration);
     return here.after >= stop;
   }
-  if (geom::norm(middle(here.pose, here.phase) - p_.goal->center) > p_.goal->radius) return false;
+  if (geom::norm(middle(here.pose, here.shape) - p_.goal->center) > p_.goal->radius) return false;
   return !p_.goal->heading ||
          std::abs(geom::wrap_angle(here.pose.heading - *p_.goal->heading)) <= p_.goal->heading_tolerance;
 }
@@ -239,15 +299,17 @@ std::uint64_t Lattice::bin(const Node& n) const {
   const double slice = 2.0 * std::numbers::pi / kHeadings;
   const auto heading = static_cast<std::int64_t>(std::floor(n.pose.heading / slice + 0.5));
   const std::int64_t turn = (heading % kHeadings + kHeadings) % kHeadings;
+  // Which narrow shape leads to a pose matters little; told apart, they would only be searched many times.
   // Without a goal the way goes on after the last rendezvous until the team can stop.
   const bool stopping = n.phase == meetings() && !p_.goal;
   const auto phase = static_cast<std::uint64_t>(n.phase + (stopping ? static_cast<int>(n.after / step_) : 0));
   return (index((n.pose.x - p_.start.x) / cell_ + 0.5) << 42) |
          (index((n.pose.y - p_.start.y) / cell_ + 0.5) << 20) | phase << 8 |
-         static_cast<std::uint64_t>(2 * turn + (n.arc.gear() < 0 ? 1 : 0));
+         static_cast<std::uint64_t>(2 * turn + (n.arc.gear() < 0 ? 1 : 0)) |
+         (n.shape == 0 ? 0 : std::uint64_t{1} << 14);
 }
 
-void Lattice::add(int index, const Arc& move) {
+void Lattice::add(int index, const Arc& move, int shape_held) {
   const Node& parent = node(index);
   Node child{.pose = vehicle::drive(parent.pose, move),
              .arc = move,
@@ -255,8 +317,10 @@ void Lattice::add(int index, const Arc& move) {
              .estimate = 0.0,
              .after = parent.after,
              .parent = index,
-             .phase = parent.phase};
+             .phase = parent.phase,
+             .shape = shape_held};
   child.cost = parent.cost + time_of(move, parent.parent < 0 ? nullptr : &parent.arc);
+  if (shape_held != parent.shape) child.cost += kShapePrice * limits_.speed / limits_.acceleration;
   const double left = std::max(
       0.0, parent.estimate - parent.cost - s_.heuristic_weight * std::abs(move.distance) / limits_.speed);
   child.estimate = child.cost + left;
@@ -264,11 +328,47 @@ void Lattice::add(int index, const Arc& move) {
   push(static_cast<int>(nodes_.size()) - 1);
 }
 
+// Whether a node that came to the front for the first time can be reached and is the cheapest in its bin;
+// then its estimate becomes a good one.
+bool Lattice::check(int index) {
+  Node& here = node(index);
+  const auto known = bins_.find(bin(here));
+  if (known != bins_.end() && node(known->second).cost <= here.cost) return false;
+  if (!drive_to(here)) {
+    if (here.shape == node(here.parent).shape) offer_shapes(index);
+    return false;
+  }
+  const auto [in_bin, fresh] = bins_.try_emplace(bin(here), index);
+  if (!fresh) {
+    if (node(in_bin->second).cost <= here.cost) return false;
+    node(in_bin->second).closed = true;
+    in_bin->second = index;
+  }
+  here.checked = true;
+  here.estimate = here.cost + s_.heuristic_weight * ahead(here);
+  return std::isfinite(here.estimate);
+}
+
+void Lattice::expand(int index) {
+  const int held = node(index).shape;
+  const bool back = held != 0 && node(index).phase < meetings();  // a rendezvous wants the first shape
+  for (const Arc& move : moves_) {
+    add(index, move, held);
+    if (back) add(index, move, 0);
+  }
+}
+
 std::optional<FormationPath> Lattice::run() {
-  Node root{
-      .pose = p_.start, .arc = {}, .cost = 0.0, .estimate = 0.0, .after = 0.0, .parent = -1, .phase = 0};
+  Node root{.pose = p_.start,
+            .arc = {},
+            .cost = 0.0,
+            .estimate = 0.0,
+            .after = 0.0,
+            .parent = -1,
+            .phase = 0,
+            .shape = 0};
   root.checked = true;
-  root.estimate = s_.heuristic_weight * ahead(root.pose, 0);
+  root.estimate = s_.heuristic_weight * ahead(root);
   if (!std::isfinite(root.estimate)) return std::nullopt;
   nodes_.push_back(root);
   push(0);
@@ -278,23 +378,12 @@ std::optional<FormationPath> Lattice::run() {
     open_.pop_back();
     if (node(entry.node).closed || node(entry.node).estimate != entry.estimate) continue;
     if (!node(entry.node).checked) {
-      Node& here = node(entry.node);
-      const auto known = bins_.find(bin(here));
-      here.closed = (known != bins_.end() && node(known->second).cost <= here.cost) || !drive_to(here);
-      if (here.closed) continue;
-      const auto [in_bin, fresh] = bins_.try_emplace(bin(here), entry.node);
-      if (!fresh) {
-        if (node(in_bin->second).cost <= here.cost) {
-          here.closed = true;
-          continue;
-        }
-        node(in_bin->second).closed = true;
-        in_bin->second = entry.node;
+      if (!check(entry.node)) {
+        node(entry.node).closed = true;
+        continue;
       }
-      here.checked = true;
-      here.estimate = here.cost + s_.heuristic_weight * ahead(here.pose, here.phase);
-      if (!std::isfinite(here.estimate)) continue;
-      if (!open_.empty() && here.estimate > open_.front().estimate) {
+      // Whoever learns that it is further off than it looked waits for its turn.
+      if (!open_.empty() && node(entry.node).estimate > open_.front().estimate) {
         push(entry.node);
         continue;
       }
@@ -302,7 +391,7 @@ std::optional<FormationPath> Lattice::run() {
     if (at_goal(node(entry.node))) return path_to(entry.node);
     node(entry.node).closed = true;
     if (++expansions % 64 == 0 && p_.deadline.expired()) break;
-    for (const Arc& move : moves_) add(entry.node, move);
+    expand(entry.node);
   }
   return std::nullopt;
 }
@@ -319,17 +408,20 @@ FormationPath Lattice::path_to(int index) {
       {0.0, p_.start, first != nullptr ? first->curvature : 0.0, first != nullptr ? first->gear() : 1});
   double s = 0.0;
   int phase = 0;
+  result.shapes.push_back({0.0, 0});
   for (std::size_t i = 1; i < way.size(); ++i) {
     const Arc& arc = node(way[i]).arc;
     const Pose2 from = node(way[i - 1]).pose;
     if (points.back().gear != arc.gear()) points.push_back({s, from, arc.curvature, arc.gear()});
     points.back().curvature = arc.curvature;
+    const int held = node(way[i]).shape;
+    if (held != result.shapes.back().shape) result.shapes.push_back({s, held});
     for (int k = 1; k <= kChecks; ++k) {
       const double distance = arc.distance * k / kChecks;
       const Pose2 pose = vehicle::drive(from, arc.curvature, distance);
       points.push_back({s + std::abs(distance), pose, arc.curvature, arc.gear()});
-      while (phase < meetings() &&
-             geom::norm(middle(pose, phase) - p_.meetings[static_cast<std::size_t>(phase)].point) <=
+      while (phase < meetings() && held == 0 &&
+             geom::norm(middle(pose, 0) - p_.meetings[static_cast<std::size_t>(phase)].point) <=
                  p_.meetings[static_cast<std::size_t>(phase)].reach) {
         result.meeting_s.push_back(s + std::abs(distance));
         ++phase;
