@@ -1,9 +1,11 @@
 // seine plan: from a scenario to a certified plan.
+#include <algorithm>
 #include <cstdint>
 #include <iostream>
 #include <limits>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "apps/seine/command.hpp"
 #include "apps/seine/progress_line.hpp"
@@ -23,6 +25,7 @@ struct Arguments {
   int threads = 0;
   std::uint64_t seed = 0;
   std::string method = "joint";
+  std::vector<std::string> without;
 };
 
 constexpr const char* kFooter =
@@ -33,12 +36,26 @@ Examples
   seine plan team.yaml --deadline 0.5 --json     the best certified plan within half a second, as numbers
   seine plan map_50by50_obst25_agents10_ex0.yaml   a CL-MAPF instance as it is)";
 
+planner::Ablation ablation_of(const std::vector<std::string>& without) {
+  const auto has = [&](const char* part) {
+    return std::find(without.begin(), without.end(), part) != without.end();
+  };
+  return {.catching = has("catch"),
+          .size = has("size"),
+          .topology = has("topology"),
+          .relaxation = has("relaxation"),
+          .cusps = has("cusps")};
+}
+
 int run(const Arguments& arguments, bool json) {
   expect_writable(arguments.output);
   const world::Scenario scenario = io::load_scenario(arguments.scenario);
   ProgressLine line;
-  planner::Options options{
-      .deadline_s = arguments.deadline, .threads = arguments.threads, .seed = arguments.seed, .progress = {}};
+  planner::Options options{.deadline_s = arguments.deadline,
+                           .threads = arguments.threads,
+                           .seed = arguments.seed,
+                           .without = ablation_of(arguments.without),
+                           .progress = {}};
   options.progress = [&line](const planner::Progress& progress) {
     line.update(progress.stage, progress.fraction);
   };
@@ -74,6 +91,12 @@ void add_plan(CLI::App& program, Invocation& invocation) {
   command.add_option("--method", arguments->method, "joint: all cars optimised together")
       ->check(CLI::IsMember({"joint"}))
       ->capture_default_str();
+  command
+      .add_option("--without", arguments->without,
+                  "parts of the method to leave out, to see what they bring: catch, size, topology, "
+                  "relaxation, cusps (teams with a net; the certificate still asks for everything)")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"catch", "size", "topology", "relaxation", "cusps"}));
   add_json(command, invocation);
   command.callback([&invocation, arguments] {
     invocation.run = [arguments, &invocation] { return run(*arguments, invocation.json); };

@@ -1,0 +1,199 @@
+// The benchmarks of teams with a net: ./dev bench catch, ./dev bench ablation.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "bench/net/carry_scene.hpp"
+#include "seine/base/rng.hpp"
+#include "seine/io/map_file.hpp"
+#include "seine/net/catch_rules.hpp"
+#include "seine/planner/planner.hpp"
+#include "seine/world/net_families.hpp"
+
+namespace seine::bench {
+namespace {
+
+constexpr double kDeadline = 20.0;  // s
+constexpr int kCarries = 20;
+constexpr double kNudge = 0.12, kNudgeTime = 0.03;  // m and s: what a better estimate changes
+
+using Make = std::function<std::optional<world::Scenario>(std::uint64_t)>;
+
+double median(std::vector<double> values) {
+  if (values.empty()) return std::nan("");
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+double largest(const std::vector<double>& values) {
+  return values.empty() ? std::nan("") : *std::max_element(values.begin(), values.end());
+}
+
+struct Tally {
+  int asked = 0, impossible = 0, certified = 0;
+  std::vector<double> compute, guess, optimise, certify, makespan;
+  std::string first_failure;
+};
+
+planner::PlanResult plan(const world::Scenario& scenario, planner::Options options) {
+  options.deadline_s = kDeadline;
+  return planner::plan(scenario, options);
+}
+
+bool proved_impossible(const planner::PlanResult& result) {
+  return !result.certified && result.iterations == 0 && result.times.guess == 0.0;
+}
+
+void add(Tally& tally, const planner::PlanResult& result, std::uint64_t seed) {
+  ++tally.asked;
+  if (proved_impossible(result)) {
+    ++tally.impossible;
+    return;
+  }
+  if (!result.certified) {
+    if (tally.first_failure.empty())
+      tally.first_failure = "seed " + std::to_string(seed) + ": " + result.reason;
+    return;
+  }
+  ++tally.certified;
+  tally.compute.push_back(1e3 * result.times.compute);
+  tally.guess.push_back(1e3 * result.times.guess);
+  tally.optimise.push_back(1e3 * result.times.optimise);
+  tally.certify.push_back(1e3 * result.times.certify);
+  tally.makespan.push_back(result.quality.makespan);
+}
+
+void print(const std::string& name, const Tally& t) {
+  double mean = 0.0;
+  for (const double m : t.makespan) mean += m / static_cast<double>(t.makespan.size());
+  std::printf("%-22s %3d of %3d  %7.1f %8.1f  %7.1f %8.1f %8.2f  %8.2f\n", name.c_str(), t.certified,
+              t.asked - t.impossible, median(t.compute), largest(t.compute), median(t.guess),
+              median(t.optimise), median(t.certify), mean);
+  if (t.impossible > 0) std::printf("    and %d proved impossible\n", t.impossible);
+  if (!t.first_failure.empty()) std::printf("    %s\n", t.first_failure.c_str());
+  std::fflush(stdout);
+}
+
+Tally run(int instances, const Make& make) {
+  Tally tally;
+  for (int seed = 0; seed < instances; ++seed) {
+    const auto scenario = make(static_cast<std::uint64_t>(seed));
+    if (scenario) add(tally, plan(*scenario, {}), static_cast<std::uint64_t>(seed));
+  }
+  return tally;
+}
+
+// The target as a better estimate has it, planned from the plan that stands.
+void replan(int robots, int instances) {
+  Tally tally;
+  for (int seed = 0; seed < instances; ++seed) {
+    world::Scenario scenario = world::throw_scene(robots, static_cast<std::uint64_t>(seed));
+    const planner::PlanResult first = plan(scenario, {});
+    if (!first.certified) continue;
+    Rng rng(static_cast<std::uint64_t>(seed));
+    net::Target& target = scenario.targets.front();
+    target.position.x += rng.uniform(-kNudge, kNudge);
+    target.position.y += rng.uniform(-kNudge, kNudge);
+    target.time = std::max(0.0, target.time + rng.uniform(-kNudgeTime, kNudgeTime));
+    add(tally, plan(scenario, {.previous = &first.plan}), static_cast<std::uint64_t>(seed));
+  }
+  print("replan, " + std::to_string(robots) + " cars", tally);
+}
+
+void carries() {
+  const char* maps[] = {"gdc_1",       "gdc_2",       "intel",  "stata_basement",
+                        "building_31", "levinelobby", "torino", "skirk"};
+  std::vector<geom::OccupancyGrid> grids;
+  for (const char* name : maps)
+    grids.push_back(io::load_map(std::string(SEINE_DATA_DIR "/maps/ros/") + name + ".yaml"));
+  for (const int robots : {3, 4}) {
+    Tally tally;
+    for (std::uint64_t seed = 0; tally.asked < kCarries && seed < 10 * kCarries; ++seed)
+      if (const auto scenario = carry_scene(grids[seed % grids.size()], robots, seed))
+        add(tally, plan(*scenario, {}), seed);
+    print("carry in buildings, " + std::to_string(robots), tally);
+  }
+}
+
+void catches(int instances) {
+  std::printf(
+      "%-22s certified   compute ms         guess  optimise  certify  travel s\n%-22s             median  "
+      "slowest    (medians, ms)                mean\n",
+      "", "");
+  for (const int robots : {3, 4, 6})
+    print("throw, " + std::to_string(robots) + " cars",
+          run(instances, [&](std::uint64_t seed) { return world::throw_scene(robots, seed); }));
+  for (const int robots : {3, 4, 6}) replan(robots, instances);
+  for (const int robots : {3, 4, 6})
+    print("throw, dense, " + std::to_string(robots) + " cars", run(instances, [&](std::uint64_t seed) {
+            return world::throw_scene(robots, seed, world::Clutteredness::dense);
+          }));
+  for (const double width : {2.6, 2.2, 1.9})
+    for (const int robots : {3, 4, 6}) {
+      char name[64];
+      std::snprintf(name, sizeof name, "gap %.1f m, %d cars", width, robots);
+      print(name, run(std::max(1, instances * 2 / 5),
+                      [&](std::uint64_t seed) { return world::gap_scene(robots, seed, width); }));
+    }
+  carries();
+}
+
+int cusps_of(const traj::TeamTrajectory& team) {
+  int cusps = 0;
+  for (const traj::RobotTrajectory& robot : team.robots)
+    for (std::size_t i = 1; i < robot.segments.size(); ++i)
+      cusps += robot.segments[i].gear != robot.segments[i - 1].gear;
+  return cusps;
+}
+
+// What each part of the method brings, on the same throws.
+void ablation(int instances) {
+  const std::pair<const char*, planner::Ablation> variants[] = {{"everything", {}},
+                                                                {"without catch", {.catching = true}},
+                                                                {"without size", {.size = true}},
+                                                                {"without topology", {.topology = true}},
+                                                                {"without relaxation", {.relaxation = true}},
+                                                                {"without cusps", {.cusps = true}}};
+  for (const int robots : {3, 4}) {
+    std::printf(
+        "%d cars                certified  in the net  rim margin m  opening  too wide  travel s  cusps\n",
+        robots);
+    for (const auto& [name, without] : variants) {
+      int certified = 0, caught = 0, wide = 0, cusps = 0;
+      std::vector<double> margin, opening, travel;
+      for (int seed = 0; seed < instances; ++seed) {
+        const auto scenario = world::throw_scene(robots, static_cast<std::uint64_t>(seed));
+        const planner::PlanResult result = plan(scenario, {.without = without});
+        if (result.certificate.catches.empty()) continue;
+        certified += result.certified;
+        const net::Catch& c = result.certificate.catches.front();
+        caught += c.rim_margin >= net::kRimMargin;
+        wide += result.certificate.net.stretch.clearance < 0.0;
+        cusps += cusps_of(result.plan);
+        margin.push_back(c.rim_margin), opening.push_back(c.opening);
+        travel.push_back(result.plan.makespan());
+      }
+      std::printf("%-20s %4d of %3d %11d %13.3f %8.3f %9d %9.2f %6d\n", name, certified, instances, caught,
+                  median(margin), median(opening), wide, median(travel), cusps);
+      std::fflush(stdout);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace seine::bench
+
+int main(int count, char** arguments) {
+  const bool ablation = count > 1 && std::strcmp(arguments[1], "ablation") == 0;
+  if (count < 2 || count > 3 || (!ablation && std::strcmp(arguments[1], "catch") != 0)) {
+    std::fprintf(stderr, "usage: seine_net_bench catch|ablation [INSTANCES]\n");
+    return 2;
+  }
+  const int instances = count > 2 ? std::max(1, std::atoi(arguments[2])) : ablation ? 40 : 100;
+  ablation ? seine::bench::ablation(instances) : seine::bench::catches(instances);
+  return 0;
+}
