@@ -12,8 +12,6 @@
 
 namespace seine::certify {
 
-/// Every attachment stays this far, m, inside the lines through the ring edges next to its own.
-inline constexpr double kConvexMargin = 0.05;
 /// Cars of a team that delivers with a heading end within this of it, rad.
 inline constexpr double kDeliveryHeading = 0.1;
 
@@ -68,11 +66,14 @@ struct Closest {
 /// What is left of a net's limits where least is left; below 0 where they are broken.
 struct NetRoom {
   Closest stretch;    ///< m, of a pair's largest distance (resolved to 5 mm)
-  Closest convexity;  ///< m, of an attachment's distance inside a ring edge, beyond kConvexMargin (5 mm)
+  Closest convexity;  ///< m, of an attachment's distance inside a ring edge, beyond net::kConvexMargin (5 mm)
   Closest ground;     ///< m, of the lowest point's height, beyond the net's clearance (1 cm)
   /// m, to obstacles: the distance beside them, or the height above them beyond the net's clearance, whatever
   /// is larger (1 cm, searched up to 0.2 m)
   Closest obstacles;
+  /// m², net::holding_reserve while something lies in the net (0.01 m²): below 0 it can roll out over an
+  /// edge. Reported, not judged.
+  Closest holding;
 };
 
 /// The verdict on one plan.

@@ -58,7 +58,7 @@ NetVerdict prove_net(Context& context, const Scene& scene, const traj::TeamTraje
   verdict.catches = catches.run(crossings);
   append(verdict.findings, catches.take_findings());
   append(verdict.findings, check_delivery(context, plan));
-  verdict.room = {ring.stretch(), ring.convexity(), drag.closest(), underneath.closest()};
+  verdict.room = {ring.stretch(), ring.convexity(), drag.closest(), underneath.closest(), ring.holding()};
   return verdict;
 }
 

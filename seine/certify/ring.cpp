@@ -26,29 +26,47 @@ RingProof::RingProof(Context& context, const Formation& formation)
       formation_(formation),
       rest_area_(geom::signed_area(net_.rest)),
       levels_(static_cast<std::size_t>(kDeepest) + 1) {
-  const std::size_t count = formation.size();
-  const auto add = [this](Rules& list, Rule rule) {
-    list.push_back(rules_.size());
-    rules_.push_back(std::move(rule));
-  };
+  add_pairs_and_corners();
+  while_loaded_ = always_;
+  add_holding();
+  while_held_ = while_loaded_;
+  add(while_held_, {.sort = open, .limit = net::kHeldOpening, .episodes = {}});
+  for (Level& level : levels_) level.middle.resize(formation.size());
+}
+
+void RingProof::add(Rules& list, Rule rule) {
+  list.push_back(rules_.size());
+  rules_.push_back(std::move(rule));
+}
+
+void RingProof::add_pairs_and_corners() {
+  const std::size_t count = formation_.size();
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t j = i + 1; j < count; ++j) {
-      add(always_, {.sort = pair,
-                    .i = i,
-                    .j = j,
-                    .limit = net_.stretch * net::rest_distance(net_, i, j),
-                    .episodes = {}});
+      const double longest = net_.stretch * net::rest_distance(net_, i, j);
+      add(always_, {.sort = pair, .i = i, .j = j, .limit = longest, .episodes = {}});
     }
   }
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t j = (i + 1) % count, after = (i + 2) % count, before = (i + count - 1) % count;
-    add(always_, {.sort = corner, .i = i, .j = j, .other = after, .limit = kConvexMargin, .episodes = {}});
+    add(always_,
+        {.sort = corner, .i = i, .j = j, .other = after, .limit = net::kConvexMargin, .episodes = {}});
     if (before == after) continue;
-    add(always_, {.sort = corner, .i = i, .j = j, .other = before, .limit = kConvexMargin, .episodes = {}});
+    add(always_,
+        {.sort = corner, .i = i, .j = j, .other = before, .limit = net::kConvexMargin, .episodes = {}});
   }
-  while_held_ = always_;
-  add(while_held_, {.sort = open, .limit = net::kHeldOpening, .episodes = {}});
-  for (Level& level : levels_) level.middle.resize(count);
+}
+
+void RingProof::add_holding() {
+  const std::size_t count = formation_.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t j = (i + 1) % count;
+    for (std::size_t k = 0; k < count; ++k) {
+      if (k == i || k == j) continue;
+      const double most = 2.0 * geom::dot(net_.rest[i] - net_.rest[k], net_.rest[j] - net_.rest[k]);
+      add(while_loaded_, {.sort = hold, .i = i, .j = j, .other = k, .limit = most, .episodes = {}});
+    }
+  }
 }
 
 void RingProof::run() {
@@ -56,7 +74,7 @@ void RingProof::run() {
   Rules left;
   for (const Beat& beat : formation_.beats()) {
     const Slice slice = formation_.slice(beat);
-    const Rules& rules = beat.held ? while_held_ : always_;
+    const Rules& rules = beat.held ? while_held_ : beat.loaded ? while_loaded_ : always_;
     for (const std::size_t r : rules) {
       rules_[r].worst = 0.0;
       look(rules_[r], slice, slice.from, beat.t0);
@@ -86,6 +104,8 @@ void RingProof::check_start() {
 
 double RingProof::room(const Rule& rule, std::span<const Vec2> at) const {
   if (rule.sort == open) return net::opening(net_, at) - rule.limit;
+  if (rule.sort == hold)  // G_ik + G_jk − G_ij of net::holding_reserve, written as a product
+    return rule.limit - 2.0 * geom::dot(at[rule.i] - at[rule.other], at[rule.j] - at[rule.other]);
   const Vec2 edge = at[rule.j] - at[rule.i];
   const double length = geom::norm(edge);
   if (rule.sort == pair) return rule.limit - length;
@@ -99,6 +119,8 @@ bool RingProof::keeps(const Rule& rule, const Slice& slice, double wanted) const
       return rule.limit - furthest_apart(slice, rule.i, rule.j) >= wanted;
     case corner:
       return stays_inside(slice, rule.i, rule.j, rule.other, rule.limit + wanted);
+    case hold:
+      return rule.limit - 2.0 * largest_dot(slice, rule.i, rule.j, rule.other) >= wanted;
     default: {
       const double opening = rule.limit + wanted;
       return opening <= 0.0 || least_area(slice) >= opening * opening * rest_area_;
@@ -113,20 +135,23 @@ void RingProof::look(Rule& rule, const Slice& slice, std::span<const Vec2> at, d
     closest = {found, time, static_cast<int>(rule.i),
                static_cast<int>(rule.sort == pair ? rule.j : rule.other)};
   }
-  if (found >= -tolerance::kNetSeen) return;
+  if (found >= -tolerance::kNetSeen || rule.sort == hold) return;
   rule.worst = std::min(rule.worst, found);
   rule.episodes.offer(slice.beat->t0, slice.beat->t1, time, found, -found);
+}
+
+/// A broken rule is followed to its worst, others to the least room of all.
+double RingProof::wanted(const Rule& rule) const {
+  const double least = closest_[rule.sort].clearance;
+  if (rule.sort == hold) return least - kReserveResolution;
+  if (rule.worst < 0.0) return rule.worst - kNetResolution;
+  return std::max(-tolerance::kNetProved, least - kNetResolution);
 }
 
 void RingProof::unproved(const Rules& rules, const Slice& slice, Rules& open_rules) {
   open_rules.clear();
   for (const std::size_t r : rules) {
-    const Rule& rule = rules_[r];
-    // A broken rule is followed to its worst, others to the least room of all.
-    const double wanted =
-        rule.worst < 0.0 ? rule.worst - kNetResolution
-                         : std::max(-tolerance::kNetProved, closest_[rule.sort].clearance - kNetResolution);
-    if (!keeps(rule, slice, wanted)) open_rules.push_back(r);
+    if (!keeps(rules_[r], slice, wanted(rules_[r]))) open_rules.push_back(r);
   }
 }
 

@@ -23,14 +23,16 @@ class RingProof {
   /// The least room of the pairs and of the ring's corners, m, each found to within kNetResolution.
   const Closest& stretch() const { return closest_[pair]; }
   const Closest& convexity() const { return closest_[corner]; }
+  /// The least holding reserve while something lies in the net, m², to within kReserveResolution.
+  const Closest& holding() const { return closest_[hold]; }
 
  private:
-  enum Sort { pair, corner, open, kSorts };
+  enum Sort { pair, corner, open, hold, kSorts };
   struct Rule {
     Sort sort;
     std::size_t i = 0, j = 0;  ///< a pair, or the ring edge i → j …
-    std::size_t other = 0;     ///< … and the attachment that stays on its left
-    double limit = 0.0;        ///< m of distance or height; least opening
+    std::size_t other = 0;     ///< … and an attachment that is no end of it
+    double limit = 0.0;        ///< m of distance or height; least opening; m², all slack there can be
     double worst = 0.0;        ///< room in the beat at hand; 0 when none is broken
     bool undecided = false;    ///< somewhere
     double undecided_time = 0.0;
@@ -43,10 +45,14 @@ class RingProof {
   };
   static constexpr int kDeepest = 40;
 
+  void add(Rules& list, Rule rule);
+  void add_pairs_and_corners();
+  void add_holding();
   void check_start();
   double room(const Rule& rule, std::span<const geom::Vec2> at) const;
   /// Whether the room is at least `wanted` throughout the slice.
   bool keeps(const Rule& rule, const Slice& slice, double wanted) const;
+  double wanted(const Rule& rule) const;
   void look(Rule& rule, const Slice& slice, std::span<const geom::Vec2> at, double time);
   /// Of `rules`, those not proved on the slice.
   void unproved(const Rules& rules, const Slice& slice, Rules& open);
@@ -60,7 +66,7 @@ class RingProof {
   const Formation& formation_;
   double rest_area_;  // m²
   std::vector<Rule> rules_;
-  Rules always_, while_held_;
+  Rules always_, while_loaded_, while_held_;
   std::array<Closest, kSorts> closest_;
   std::vector<Level> levels_;
   std::vector<Finding> start_;

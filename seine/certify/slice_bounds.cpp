@@ -23,11 +23,15 @@ struct Vector {
         longest(std::sqrt(std::max(geom::squared_norm(from), geom::squared_norm(to)))) {}
 };
 
-/// By how much e × w can fall below its chord. The product of two chords does by at most a quarter of that of
-/// their changes, and each vector can be off its chord.
+/// By how much a product of e and w can be off that of their chords.
+double product_loss(const Vector& e, const Vector& w) {
+  return e.loss * w.longest + w.loss * e.longest + e.loss * w.loss;
+}
+
+/// By how much e × w can fall below its chord: the product of two chords does by at most a quarter of that of
+/// their changes.
 double cross_loss(const Vector& e, const Vector& w) {
-  const double of_chords = 0.25 * std::max(0.0, geom::cross(e.to - e.from, w.to - w.from));
-  return of_chords + e.loss * w.longest + w.loss * e.longest + e.loss * w.loss;
+  return 0.25 * std::max(0.0, geom::cross(e.to - e.from, w.to - w.from)) + product_loss(e, w);
 }
 
 }  // namespace
@@ -57,6 +61,12 @@ bool stays_inside(const Slice& slice, std::size_t i, std::size_t j, std::size_t 
   // … and above the smaller one by no less than half of its change.
   const double least = std::min(at_from, at_to) - 0.5 * geom::norm(e.to - e.from) - e.loss;
   return std::min(cross_from, cross_to) - loss - by * std::max(least, 0.0) >= 0.0;
+}
+
+double largest_dot(const Slice& slice, std::size_t i, std::size_t j, std::size_t k) {
+  const Vector e(slice, k, i), w(slice, k, j);
+  const double of_chords = 0.25 * std::max(0.0, -geom::dot(e.to - e.from, w.to - w.from));
+  return std::max(geom::dot(e.from, w.from), geom::dot(e.to, w.to)) + of_chords + product_loss(e, w);
 }
 
 double least_area(const Slice& slice) {

@@ -16,6 +16,9 @@ double least_square_apart(const Slice& slice, std::size_t i, std::size_t j);
 /// Whether `other` provably stays at least `by` (m) on the left of the line from attachment i to j.
 bool stays_inside(const Slice& slice, std::size_t i, std::size_t j, std::size_t other, double by);
 
+/// An upper bound of (a_i − a_k)·(a_j − a_k), m².
+double largest_dot(const Slice& slice, std::size_t i, std::size_t j, std::size_t k);
+
 /// A lower bound of the (signed) area of the attachments' polygon, m².
 double least_area(const Slice& slice);
 

@@ -30,6 +30,7 @@ inline constexpr double kObstacleSearch = 1.0;
 
 /// What is left of the net's size and shape is found to within this, m.
 inline constexpr double kNetResolution = 5e-3;
+inline constexpr double kReserveResolution = 1e-2;  // m², of its holding reserve
 /// What is left of its height, and of its distance to obstacles, m …
 inline constexpr double kHeightResolution = 1e-2;
 /// … of which those further than this from its polygon are not looked for, m.

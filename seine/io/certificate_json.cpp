@@ -99,6 +99,7 @@ std::string certificate_json(const world::Scenario& scenario, const certify::Cer
     object.add_raw("net_convexity", closest_json(scenario, room.convexity, true));
     object.add_raw("net_ground", closest_json(scenario, room.ground, false));
     object.add_raw("net_obstacles", closest_json(scenario, room.obstacles, false));
+    object.add("net_holding_m2", room.holding.clearance);
   }
   if (!certificate.catches.empty()) object.add_raw("catches", catches_json(certificate));
   object.add_raw("violations", violations_json(scenario, certificate));

@@ -10,7 +10,7 @@ namespace seine::io {
 
 /// {"holds": …, "seconds": …, "robot_clearance": {…}, "obstacle_clearance": {…}, "violations": […]} on one
 /// line; for a team with a net also "net_stretch", "net_convexity", "net_ground", "net_obstacles" (what is
-/// left of each) and "catches".
+/// left of each), "net_holding_m2" and "catches".
 std::string certificate_json(const world::Scenario& scenario, const certify::Certificate& certificate);
 
 /// [{"kind": "speed", "time": …, "robot": name, "value": …, "limit": …, "text": …}, …]

@@ -106,7 +106,7 @@ TEST(PlantedNet, CornersCutWhileTheRingTurns) {
     return net_team(plan, regular(3, 1.0), {0.0, 0.0}).judge();
   };
   for (const double off : {-1e-3, 1e-3}) {
-    const Certificate certificate = turning(2.0 * (kConvexMargin + off));
+    const Certificate certificate = turning(2.0 * (net::kConvexMargin + off));
     EXPECT_EQ(breaks(certificate, Kind::net_topology), off < 0.0) << summary(certificate);
   }
 }
@@ -114,8 +114,8 @@ TEST(PlantedNet, CornersCutWhileTheRingTurns) {
 TEST(PlantedNet, TooNarrowATriangle) {
   for (const double height : {0.0485, 0.0515}) {
     const Certificate certificate = parked_team({{-1, 0}, {1, 0}, {0, height}}, regular(3, 1.4)).judge();
-    EXPECT_EQ(certificate.holds, height > kConvexMargin) << summary(certificate);
-    EXPECT_NEAR(certificate.net.convexity.clearance, height - kConvexMargin, 1e-9);
+    EXPECT_EQ(certificate.holds, height > net::kConvexMargin) << summary(certificate);
+    EXPECT_NEAR(certificate.net.convexity.clearance, height - net::kConvexMargin, 1e-9);
   }
 }
 

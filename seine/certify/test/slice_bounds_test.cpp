@@ -70,11 +70,12 @@ TEST(SliceBounds, HoldBetweenTheEnds) {
     const double width = rng.uniform(0.05, 0.5);
     Swarm swarm(rng, static_cast<std::size_t>(3 + rng.below(3)), width, rng.uniform(0.0, 10.0));
     const Slice slice = swarm.slice(false);
-    double far = 0.0, near = 1e9, left = 1e9, area = 1e9;
+    double far = 0.0, near = 1e9, left = 1e9, area = 1e9, dot = -1e9;
     for (int l = 0; l <= kLooks; ++l) {
       const auto at = swarm.at(width * l / kLooks);
       far = std::max(far, geom::norm(at[0] - at[2]));
       near = std::min(near, geom::squared_norm(at[0] - at[2]));
+      dot = std::max(dot, geom::dot(at[0] - at[2], at[1] - at[2]));
       left = std::min(left, inside(at, 0, 1, 2));
       double twice = 0.0;
       for (std::size_t k = 0; k < at.size(); ++k) twice += geom::cross(at[k], at[(k + 1) % at.size()]);
@@ -83,6 +84,7 @@ TEST(SliceBounds, HoldBetweenTheEnds) {
     EXPECT_GE(furthest_apart(slice, 0, 2), far - 1e-12);
     EXPECT_LE(least_square_apart(slice, 0, 2), near + 1e-12);
     EXPECT_LE(least_area(slice), area + 1e-12);
+    EXPECT_GE(largest_dot(slice, 0, 1, 2), dot - 1e-12);
     for (const double more : {1e-9, 0.01, 0.1, 1.0}) EXPECT_FALSE(stays_inside(slice, 0, 1, 2, left + more));
   }
 }

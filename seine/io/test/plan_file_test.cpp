@@ -4,10 +4,12 @@
 
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "seine/base/error.hpp"
 #include "seine/base/rng.hpp"
+#include "seine/io/certificate_json.hpp"
 #include "seine/io/report.hpp"
 
 namespace seine::io {
@@ -155,6 +157,44 @@ TEST(Report, HasTheDocumentedKeys) {
   const json no = json::parse(report_json(two_cars(), failed));
   EXPECT_FALSE(no["certified"].get<bool>());
   EXPECT_FALSE(no.contains("makespan_s"));
+}
+
+TEST(Report, CatchesAreThereWhereTheyAreAskedFor) {
+  certify::Certificate certificate;
+  certificate.catches = {{.time = 1.5, .rim_margin = 0.4, .opening = 0.9}};
+  json report = json::parse(report_json(two_cars(), certificate));
+  EXPECT_EQ(report["catch"]["time_s"], 1.5);
+  EXPECT_EQ(report["catch"]["margin_m"], 0.4);
+  EXPECT_EQ(report["catch"]["opening"], 0.9);
+  EXPECT_FALSE(report.contains("catches"));
+  // Of several, the one with the smallest margin stands for all; one that never comes is worse than any.
+  certificate.catches.push_back({.time = 3.0, .rim_margin = 0.25, .opening = 0.89});
+  certificate.catches.push_back({.time = 4.0, .rim_margin = 0.3, .opening = 0.93});
+  report = json::parse(report_json(two_cars(), certificate));
+  EXPECT_EQ(report["catch"]["time_s"], 3.0);
+  ASSERT_EQ(report["catches"].size(), 3u);
+  EXPECT_EQ(report["catches"][2]["margin_m"], 0.3);
+  const double never = std::numeric_limits<double>::quiet_NaN();
+  certificate.catches[0] = {never, never, never, never, never, never, never, never};
+  report = json::parse(report_json(two_cars(), certificate));
+  EXPECT_TRUE(report["catch"]["time_s"].is_null());
+  EXPECT_FALSE(json::parse(report_json(two_cars(), certify::Certificate{})).contains("catch"));
+}
+
+TEST(Report, WhatIsLeftOfANet) {
+  certify::Certificate certificate;
+  world::Scenario scenario = two_cars();
+  EXPECT_FALSE(json::parse(certificate_json(scenario, certificate)).contains("net_ground"));
+  scenario.net = net::Net{};
+  certificate.net.ground = {0.125, 2.0, -1, -1};
+  certificate.net.stretch = {0.5, 1.0, 0, 1};
+  const json inside = json::parse(certificate_json(scenario, certificate));
+  EXPECT_EQ(inside["net_ground"]["clearance"], 0.125);
+  EXPECT_EQ(inside["net_stretch"]["other"], "b");
+  EXPECT_TRUE(inside["net_obstacles"]["clearance"].is_null());
+  const json report = json::parse(report_json(scenario, certificate));
+  EXPECT_EQ(report["min_net_clearance_m"], 0.125);
+  EXPECT_EQ(report["min_net_stretch_margin_m"], 0.5);
 }
 
 TEST(Report, AVerdictListsWhatIsBroken) {
