@@ -59,7 +59,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(Usage, GenerateIsDeterministicAndLoads) {
   const Scratch scratch;
-  for (const std::string family : {"random", "swap", "corridor", "parking"}) {
+  for (const std::string family : {"random", "swap", "corridor", "parking", "throw", "gap"}) {
     const Outcome a = scratch.run("generate " + family + " --robots 5 --seed 3");
     EXPECT_EQ(a.status, 0) << a.err;
     EXPECT_EQ(a.out, scratch.run("generate " + family + " --robots 5 --seed 3").out);
