@@ -22,6 +22,12 @@ constexpr double kRoom = 1.9;     // m around the middle of the net at the start
 constexpr double kShortest = 6.0, kLongest = 20.0;  // m of driving
 constexpr int kTries = 4000;
 
+bool is_free(const geom::OccupancyGrid& map, Vec2 point) {
+  const Vec2 d = map.origin.direction(), from = point - map.origin.position();
+  return !map.blocked(static_cast<int>(std::floor(geom::dot(from, d) / map.resolution)),
+                      static_cast<int>(std::floor(geom::cross(d, from) / map.resolution)));
+}
+
 void place_team(world::Scenario& scenario, int robots, Vec2 middle, double heading, double turn) {
   const Vec2 ahead = scenario.net->attachments.front().at.x * geom::unit(heading);
   scenario.robots.clear();
@@ -53,9 +59,9 @@ std::optional<world::Scenario> carry_scene(const geom::OccupancyGrid& map, int r
   };
   for (int tries = 0; tries < kTries; ++tries) {
     const Vec2 from = anywhere();
-    if (distances.bounds(from).lower < kRoom) continue;
+    if (distances.bounds(from).lower < kRoom || !is_free(map, from)) continue;
     const Vec2 to = from + rng.uniform(kShortest, kLongest) * geom::unit(rng.uniform(-3.14, 3.14));
-    if (distances.bounds(to).lower < kRoom) continue;
+    if (distances.bounds(to).lower < kRoom || !is_free(map, to)) continue;
     search::CostToGo way({.distances = &distances, .radius = kNarrow}, to);
     way.focus(from);
     const double length = way(from);

@@ -36,6 +36,7 @@ enum class Kind {
   net_stretch,   ///< two attachments are further apart than the cloth allows
   net_topology,  ///< the ring is not convex and counter-clockwise with its margin
   net_opening,   ///< soon after a catch the net is not wide open
+  net_holding,   ///< what lies in the net can roll out over an edge
   net_drag,      ///< the net's lowest point comes too near the ground
   net_obstacle,  ///< something too tall to pass under lies inside the net
   target_catch,  ///< a target misses the net, or the net cannot hold it ("catch")
@@ -72,7 +73,7 @@ struct NetRoom {
   /// is larger (1 cm, searched up to 0.2 m)
   Closest obstacles;
   /// m², net::holding_reserve while something lies in the net (0.01 m²): below 0 it can roll out over an
-  /// edge. Reported, not judged.
+  /// edge.
   Closest holding;
 };
 

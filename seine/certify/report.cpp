@@ -45,6 +45,8 @@ const char* name_of(Kind kind) {
       return "net_stretch";
     case Kind::net_topology:
       return "net_topology";
+    case Kind::net_holding:
+      return "net_holding";
     case Kind::net_opening:
       return "net_opening";
     case Kind::net_drag:

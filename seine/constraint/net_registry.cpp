@@ -5,6 +5,7 @@
 #include "seine/constraint/delivery.hpp"
 #include "seine/constraint/net_clearance.hpp"
 #include "seine/constraint/net_edge.hpp"
+#include "seine/constraint/net_hold.hpp"
 #include "seine/constraint/net_opening.hpp"
 #include "seine/constraint/net_radius.hpp"
 #include "seine/constraint/net_sag.hpp"
@@ -78,6 +79,13 @@ double edge_entry(std::span<const double> x, std::span<double> g) {
   return value;
 }
 
+double hold_entry(std::span<const double> x, std::span<double> g) {
+  Vec2 i, j, k;
+  const double value = net_hold(at(x, 0), at(x, 1), at(x, 2), 0.7, 0.3, i, j, k);
+  put(g, 0, i), put(g, 1, j), put(g, 2, k);
+  return value;
+}
+
 double clearance_of_ring(std::span<const Vec2> points, std::span<Vec2> gradient) {
   static const std::vector<Vec2> block{{1.4, 0.9}, {2.4, 1.0}, {1.7, 2.0}};
   return net_clearance(points, block, gradient);
@@ -109,6 +117,7 @@ std::vector<Entry> net_registry() {
           {"delivery", 4, delivery_entry, draw_any},
           of_ring("net_clearance", clearance_of_ring),
           {"net_edge", 6, edge_entry, draw_ring},
+          {"net_hold", 6, hold_entry, draw_ring},
           of_ring("net_opening", net_opening),
           of_ring("net_radius", radius_of_ring),
           pair("net_sag", net_sag),

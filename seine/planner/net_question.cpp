@@ -8,6 +8,7 @@
 #include "seine/constraint/net_spread.hpp"
 #include "seine/net/catch_rules.hpp"
 #include "seine/net/flight.hpp"
+#include "seine/net/hanging.hpp"
 
 namespace seine::planner {
 namespace {
@@ -21,6 +22,8 @@ constexpr double kPassOpening = 0.92;
 // Low obstacles this much beyond the net's reach count at a catch, m.
 constexpr double kNearCatch = 0.15;
 constexpr double kDepthSlack = 0.008, kSpeedSlack = 0.1;
+// What keeps the load in the net, m² (docs/net.md), and at most this share of what a wide open net has.
+constexpr double kHoldingReserve = 0.3, kReserveShare = 0.7;
 // Sideways speed asked for on top of what the guess expects, m/s.
 constexpr double kSidewaysRoom = 0.6;
 constexpr double kCruise = 0.9;  // of the top speed: what the formation is expected to drive
@@ -106,6 +109,7 @@ class Asking {
     question_.task.size = !without_.size;
     question_.task.topology = !without_.topology;
     question_.task.delivery = scenario_.delivery;
+    question_.task.holding_reserve = reserve();
     if (scenario_.payload) question_.task.loaded_from = 0.0;
     sort_obstacles();
     Vec2 from = start_middle(scenario_);
@@ -120,6 +124,13 @@ class Asking {
   }
 
  private:
+  // What the net has when it is nearly as open as it goes bounds what can be asked.
+  double reserve() const {
+    std::vector<Vec2> open = net_.rest;
+    for (Vec2& r : open) r *= net_.stretch;
+    return std::min(kHoldingReserve, kReserveShare * net::holding_reserve(net_, open));
+  }
+
   void sort_obstacles() {
     const double passes = net_.rim() - net_.clearance - depth_at(spread_, kPassOpening);
     world::Scenario tall = scenario_;

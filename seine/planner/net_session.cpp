@@ -22,6 +22,7 @@ constexpr double kTick = 0.0667;  // of the time a car takes to drive its own le
 constexpr FitOptions kFit{.piece_length = 2.4};
 constexpr double kPenaltyRaise = 3.0, kMostPenalty = 100.0;
 constexpr double kTightenRaise = 0.005, kMostTighten = 0.03;
+constexpr double kHoldingRaise = 0.1;                           // m²
 constexpr double kNetRaise = 0.01, kCatchRaise = 0.003;         // m, likewise
 constexpr double kOpeningRaise = 0.004, kSidewaysRaise = 0.05;  // of the net at rest; m/s
 constexpr double kClearanceRaise = 0.01;                        // car lengths, on top of what was missed
@@ -144,7 +145,7 @@ bool NetSession::certify() {
   const Stopwatch watch;
   report("certify", 0.0);
   certify::Options options;
-  options.threads = workers_.count();
+  options.threads = tasks_.size() < kShareCars ? 1 : workers_.count();
   options.deadline = deadline_;
   result_.certificate = certify::certify(scenario_, map_, result_.plan, options);
   result_.certified = result_.certificate.holds;
@@ -199,6 +200,9 @@ void NetSession::raise_demands(int round) {
         break;
       case certify::Kind::net_drag:
         net_.spread_slack += missed + kNetRaise;
+        break;
+      case certify::Kind::net_holding:
+        net_.holding_reserve += kHoldingRaise;
         break;
       case certify::Kind::net_obstacle:
         net_.obstacle_slack += missed + kNetRaise;

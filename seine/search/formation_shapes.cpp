@@ -16,6 +16,7 @@ constexpr int kDirections = 8;
 constexpr double kTurns[] = {0.0, 1.0, -1.0, 2.0, -2.0};         // of π / 2N
 constexpr double kReach = 0.985;                                 // of the stretch limit
 constexpr double kConvex = 0.12, kGround = 0.03, kApart = 0.06;  // m, kept on top of what is asked
+constexpr double kHolding = 0.3;                                 // m², of net::holding_reserve
 constexpr double kNarrowest = 0.45, kStep = 0.02;
 
 Vec2 turned(Vec2 v, Vec2 by) {
@@ -86,6 +87,7 @@ class Shapes {
       for (const std::size_t j : {(i + 2) % n, (i + n - 1) % n})
         if (geom::cross(e, ring[j] - ring[i]) < (net::kConvexMargin + kConvex) * geom::norm(e)) return false;
     }
+    if (loaded_ && net::holding_reserve(net_, ring) < kHolding) return false;
     if (net_.rim() - depth_of(ring) < above_ + kGround) return false;
     return apart(ring);
   }

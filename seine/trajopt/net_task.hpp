@@ -41,6 +41,7 @@ struct NetTask {
   std::vector<LowObstacle> low;
   bool size = true, topology = true;  ///< switches for ablation
   double obstacle_slack = 0.0;        ///< m, kept between the net and what is tall
+  double holding_reserve = 0.0;       ///< m², of net::holding_reserve while something lies in it
   double spread_slack = 0.0;          ///< m, on top of what keeps net and payload off the ground
 };
 

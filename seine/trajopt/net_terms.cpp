@@ -7,6 +7,7 @@
 #include "seine/constraint/delivery.hpp"
 #include "seine/constraint/net_clearance.hpp"
 #include "seine/constraint/net_edge.hpp"
+#include "seine/constraint/net_hold.hpp"
 #include "seine/constraint/net_opening.hpp"
 #include "seine/constraint/net_radius.hpp"
 #include "seine/constraint/net_sag.hpp"
@@ -48,6 +49,7 @@ NetTask scaled(NetTask task, const Units& units) {
     low.shape.radius *= l, low.height *= l;
   }
   task.obstacle_slack *= l, task.spread_slack *= l;
+  task.holding_reserve *= l * l;
   return task;
 }
 
@@ -135,7 +137,8 @@ void NetTerms::look_at(Look& look, double time, std::span<const Vec2> ring) {
     if (geom::distance(ring, low.shape.core) - low.shape.radius < kNearLow / units_length_)
       highest = std::max(highest, low.height);
   const double free = task_.net.rim() - task_.net.clearance - highest;
-  if (time >= task_.loaded_from)
+  look.loaded = time >= task_.loaded_from;
+  if (look.loaded)
     look.least_spread = spread_for(free) + task_.spread_slack;
   else
     look.empty_depth = free;
@@ -160,6 +163,7 @@ double NetTerms::at_ticks(int chunk, std::span<ClockState> states, int row, doub
 double NetTerms::at_tick(const Look& look, Ring& ring, double knee) const {
   double cost = 0.0;
   if (task_.size) cost += size_cost(look, ring, knee);
+  if (task_.size && look.loaded) cost += hold_cost(ring, knee);
   cost += shape_cost(look, ring, knee);
   for (const auto& [core, clearance] : look.tall) {
     const double gap = constraint::net_clearance(ring.at, *core, ring.scratch);
@@ -199,6 +203,28 @@ double NetTerms::size_cost(const Look& look, Ring& ring, double knee) const {
     cost += tick_weight_ * math::hinge(excess, knee, slope);
     for (std::size_t k = 0; k < n; ++k) ring.gradient[k] -= (tick_weight_ * slope) * ring.scratch[k];
   }
+  return cost;
+}
+
+// What lies in the net does not roll out over an edge.
+double NetTerms::hold_cost(Ring& ring, double knee) const {
+  const std::size_t n = ring.at.size();
+  const std::vector<Vec2>& rest = task_.net.rest;
+  const double reserve = task_.holding_reserve;
+  double cost = 0.0, slope;
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t k = 0, j = (i + 1) % n; k < n; ++k) {
+      if (k == i || k == j) continue;
+      Vec2 g_i, g_j, g_k;
+      const double at_rest = geom::dot(rest[i] - rest[k], rest[j] - rest[k]);
+      const double excess =
+          constraint::net_hold(ring.at[i], ring.at[j], ring.at[k], at_rest, reserve, g_i, g_j, g_k);
+      if (excess <= 0.0) continue;
+      cost += tick_weight_ * math::hinge(excess, knee, slope);
+      ring.gradient[i] += (tick_weight_ * slope) * g_i;
+      ring.gradient[j] += (tick_weight_ * slope) * g_j;
+      ring.gradient[k] += (tick_weight_ * slope) * g_k;
+    }
   return cost;
 }
 

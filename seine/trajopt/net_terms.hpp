@@ -34,6 +34,7 @@ class NetTerms {
   // What is near the net at one tick.
   struct Look {
     std::vector<std::pair<const std::vector<geom::Vec2>*, double>> tall;  // core, clearance with its radius
+    bool loaded = false;
     double least_spread = 0.0;
     double empty_depth = 0.0;  // 0: nothing asked
     double opening = 0.0;
@@ -51,6 +52,7 @@ class NetTerms {
   void pull(std::span<ClockState> states, std::size_t first, std::size_t row, const Ring& ring) const;
   double at_tick(const Look& look, Ring& ring, double knee) const;
   double size_cost(const Look& look, Ring& ring, double knee) const;
+  double hold_cost(Ring& ring, double knee) const;
   double shape_cost(const Look& look, Ring& ring, double knee) const;
   double inside(Ring& ring, geom::Vec2 point, double margin, double knee, geom::Vec2& g_point) const;
   double opening_cost(const Catch& c, Ring& ring, double knee) const;

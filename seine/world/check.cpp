@@ -110,6 +110,18 @@ Stand stand_of(const Scenario& scenario, std::size_t robot, bool goal) {
   return stand;
 }
 
+// The map's pieces are the edges of its solid regions: deep inside one nothing is near.
+void check_cell(const Stand& stand, const std::optional<geom::OccupancyGrid>& map, Complaints& out) {
+  if (!map) return;
+  const geom::Vec2 at = stand.footprint.core.front(), d = map->origin.direction();
+  const geom::Vec2 from = at - map->origin.position();
+  const auto cell = [&](double metres) { return static_cast<int>(std::floor(metres / map->resolution)); };
+  const double x = geom::dot(from, d), y = geom::cross(d, from);
+  // Beyond the grid it is the bounds that count.
+  if (x < 0.0 || y < 0.0 || cell(x) >= map->width || cell(y) >= map->height) return;
+  if (map->blocked(cell(x), cell(y))) out.push_back(stand.who + " stands in a blocked cell of the map");
+}
+
 // One sentence on a distance that is too small.
 void complain_if_near(const std::string& who, const std::string& other, double distance, double margin,
                       Complaints& out) {
@@ -226,7 +238,9 @@ std::vector<std::string> check(const Scenario& scenario, const StaticMap& map) {
   for (const auto* stands : {&starts, &goals}) {
     for (const Stand& stand : *stands) {
       check_bounds(stand, map.bounds(), margin, out);
+      const std::size_t before = out.size();
       check_static(stand, map, margin, out);
+      if (out.size() == before) check_cell(stand, scenario.map, out);
     }
     check_pairs(*stands, usable(scenario.margins.robot), out);
   }

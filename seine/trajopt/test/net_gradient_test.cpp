@@ -61,6 +61,7 @@ void make_net(Rng& rng, Team& team) {
   team.net.net.stretch = 0.7;
   team.net.catches = {c};
   team.net.loaded_from = 1.7;
+  team.net.holding_reserve = 6.0;
   team.net.delivery = net::Delivery{{2.6, 0.8}, 0.2, 0.5};
   team.scene.bounds = {{-10.0, -10.0}, {10.0, 10.0}};
   world::Obstacle post;
@@ -141,6 +142,7 @@ TEST(NetTerms, EveryTermIsFelt) {
   felt("drag", [](Team& t) {
     for (net::Attachment& a : t.net.net.attachments) a.height = 3.0;
   });
+  felt("holding", [](Team& t) { t.net.holding_reserve = 0.0; });
   felt("rim margin", [](Team& t) { t.net.catches[0].margin = -5.0; });
   felt("contact margin", [](Team& t) { t.net.catches[0].contact_margin = -5.0; });
   felt("sideways", [](Team& t) { t.net.catches[0].most_sideways = 1e9; });

@@ -48,6 +48,20 @@ TEST(Check, AGoodScenarioHasNoComplaint) {
   EXPECT_TRUE(complaints(good()).empty());
 }
 
+// A solid region is known by its edge only; whoever stands deep inside it is near nothing.
+TEST(Check, AStartDeepInsideASolidRegionOfTheMap) {
+  expect_one(
+      [](Scenario& s) {
+        geom::OccupancyGrid map{.width = 100, .height = 100, .resolution = 0.1, .origin = {}, .occupied = {}};
+        map.occupied.assign(10000, 0);
+        for (int row = 0; row < 25; ++row)
+          for (int column = 0; column < 25; ++column)
+            map.occupied[static_cast<std::size_t>(100 * row + column)] = 1;
+        s.map = map;
+      },
+      {"car0", "start", "blocked cell"});
+}
+
 TEST(Check, NumbersThatMakeNoSense) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   expect_one([](Scenario& s) { s.robots.clear(); }, {"empty"});
