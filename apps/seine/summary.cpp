@@ -27,6 +27,21 @@ std::string name(const world::Scenario& scenario, int robot) {
   return robot >= 0 && index < scenario.robots.size() ? scenario.robots[index].name : "?";
 }
 
+/// Every catch, and how high the net stays; empty for a team without a net.
+std::string nets(const certify::Certificate& certificate) {
+  std::string text;
+  for (const net::Catch& c : certificate.catches) {
+    text +=
+        printed("  catch          at %.2f s, %.2f m inside the rim beyond radius and error, at %.1f m/s\n",
+                c.time, c.rim_margin, c.speed);
+  }
+  const certify::Closest& ground = certificate.net.ground;
+  if (std::isfinite(ground.clearance))
+    text += printed("  net            at its lowest %.2f m above what it must clear, at %.2f s\n",
+                    ground.clearance, ground.time);
+  return text;
+}
+
 /// Where the plan is closest; empty for a lone car in the open.
 std::string clearances(const world::Scenario& scenario, const certify::Certificate& certificate) {
   std::string text;
@@ -40,7 +55,7 @@ std::string clearances(const world::Scenario& scenario, const certify::Certifica
     text += printed("  to obstacles   %.3f m  %s at %.2f s\n", obstacles.clearance,
                     name(scenario, obstacles.robot).c_str(), obstacles.time);
   }
-  return text;
+  return text + nets(certificate);
 }
 
 }  // namespace
