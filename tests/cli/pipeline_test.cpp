@@ -104,6 +104,22 @@ TEST(Pipeline, InterruptedEndsSoonAndWritesNothing) {
   EXPECT_LT(outcome.seconds, 2.0 * patience());
 }
 
+TEST(Pipeline, ANetCatchesWhatIsThrown) {
+  const Scratch scratch;
+  ASSERT_EQ(scratch.run("generate throw --robots 3 --seed 1 -o s.yaml").status, 0);
+  const Outcome planned = scratch.run("plan s.yaml -o p.json --json");
+  ASSERT_EQ(planned.status, 0) << planned.out << planned.err;
+  for (const char* key : {"\"catch\"", "\"time_s\"", "\"margin_m\"", "\"opening\""})
+    EXPECT_NE(planned.out.find(key), std::string::npos) << key;
+  EXPECT_EQ(scratch.run("certify s.yaml p.json").status, 0);
+  EXPECT_EQ(scratch.run("plot s.yaml p.json -o p.svg").status, 0);
+  // Without what pulls the team to its target the plan misses it, and is no plan.
+  const Outcome without = scratch.run("plan s.yaml --without catch -o q.json");
+  EXPECT_EQ(without.status, 1);
+  EXPECT_FALSE(scratch.has("q.json"));
+  EXPECT_EQ(scratch.run("plan s.yaml --without everything").status, 2);
+}
+
 TEST(Pipeline, BenchResumes) {
   const Scratch scratch;
   scratch.write("s.yaml", two_cars());

@@ -42,7 +42,7 @@ struct Throw {
 
 TEST(Formation, WaysAreClearDriveableAndKeepTheirRendezvous) {
   int found = 0;
-  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+  for (std::uint64_t seed = 0; seed < 16; ++seed) {
     Throw t(3 + static_cast<int>(seed % 4), seed);
     const auto way = search_formation(t.problem, {});
     if (!way) continue;
@@ -66,11 +66,11 @@ TEST(Formation, WaysAreClearDriveableAndKeepTheirRendezvous) {
     const Vec2 end = middle_of(t.scenario, t.problem.shapes[0], points.back().pose);
     EXPECT_LE(geom::norm(end - t.problem.goal->center), t.problem.goal->radius + 1e-6);
   }
-  EXPECT_GE(found, 25) << "of 40";
+  EXPECT_GE(found, 10) << "of 16";
 }
 
 TEST(Formation, TimingKeepsTheLimitsAndIsOnTimeWhereItCanBe) {
-  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+  for (std::uint64_t seed = 0; seed < 16; ++seed) {
     Throw t(4, seed);
     const auto way = search_formation(t.problem, {});
     if (!way) continue;
