@@ -72,8 +72,7 @@ struct NetRoom {
   /// m, to obstacles: the distance beside them, or the height above them beyond the net's clearance, whatever
   /// is larger (1 cm, searched up to 0.2 m)
   Closest obstacles;
-  /// m², net::holding_reserve while something lies in the net (0.01 m²): below 0 it can roll out over an
-  /// edge.
+  /// m², net::holding_reserve while something lies in the net (0.01 m²).
   Closest holding;
 };
 

@@ -43,16 +43,6 @@ NetVerdict prove_net(Context& context, const Scene& scene, const traj::TeamTraje
   RingProof ring(context, formation);
   ring.run();
   append(verdict.findings, ring.findings());
-  if (ring.holding().clearance < 0.0) {
-    const Closest& holding = ring.holding();
-    verdict.findings.push_back(
-        {{Kind::net_holding, holding.time, -1, -1, holding.clearance, 0.0,
-          format(
-              "what lies in the net can roll out over an edge at t = %.4f s: its holding reserve is %.3f m², "
-              "0 is required",
-              holding.time, holding.clearance)},
-         -holding.clearance});
-  }
 
   Height height(net);
   DragProof drag(context, formation, height);

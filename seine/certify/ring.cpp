@@ -135,17 +135,16 @@ void RingProof::look(Rule& rule, const Slice& slice, std::span<const Vec2> at, d
     closest = {found, time, static_cast<int>(rule.i),
                static_cast<int>(rule.sort == pair ? rule.j : rule.other)};
   }
-  if (found >= -tolerance::kNetSeen || rule.sort == hold) return;
+  if (found >= -tolerance::kNetSeen) return;
   rule.worst = std::min(rule.worst, found);
   rule.episodes.offer(slice.beat->t0, slice.beat->t1, time, found, -found);
 }
 
 /// A broken rule is followed to its worst, others to the least room of all.
 double RingProof::wanted(const Rule& rule) const {
-  const double least = closest_[rule.sort].clearance;
-  if (rule.sort == hold) return least - kReserveResolution;
-  if (rule.worst < 0.0) return rule.worst - kNetResolution;
-  return std::max(-tolerance::kNetProved, least - kNetResolution);
+  const double resolution = rule.sort == hold ? kReserveResolution : kNetResolution;
+  if (rule.worst < 0.0) return rule.worst - resolution;
+  return std::max(-tolerance::kNetProved, closest_[rule.sort].clearance - resolution);
 }
 
 void RingProof::unproved(const Rules& rules, const Slice& slice, Rules& open_rules) {
@@ -195,6 +194,14 @@ Finding RingProof::finding(const Rule& rule, const Episodes::Episode& e) const {
              format("%s hold the net %.4f m apart at t = %.4f s; %.4f m is allowed", name(rule).c_str(),
                     found, e.time, rule.limit)},
             e.excess};
+  }
+  if (rule.sort == hold) {
+    return {
+        {Kind::net_holding, e.time, -1, -1, e.value, 0.0,
+         format("what lies in the net can roll out between %s and %s at t = %.4f s: the holding reserve is "
+                "%.4f m², 0 is required",
+                context_.robot_name(i).c_str(), context_.robot_name(j).c_str(), e.time, e.value)},
+        e.excess};
   }
   const double found = rule.limit + e.value;
   if (rule.sort == open) {

@@ -9,7 +9,7 @@
 namespace seine::certify {
 
 /// Proves size and shape of a net: no two attachments further apart than the cloth allows, the ring convex
-/// and counter-clockwise with a margin, wide open after a catch.
+/// and counter-clockwise with a margin, wide open after a catch, and such that a load stays in.
 ///
 /// Each rule has a room, what is left of it: negative when broken. It is bounded from below on the beats
 /// (slice_bounds.hpp); what is not proved is halved.
