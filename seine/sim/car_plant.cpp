@@ -9,6 +9,8 @@ namespace seine::sim {
 namespace {
 
 constexpr double kSlipMemory = 0.3;  // s
+// Of the limit: gently enough that the others, who learn of it later, can keep up and the net stays whole.
+constexpr double kWatchdogBraking = 0.7;
 
 // A first-order lag for `duration`; none when the time constant is zero.
 double towards(double value, double wanted, double lag, double duration) {
@@ -47,7 +49,7 @@ CarPlant::CarPlant(const vehicle::Model& model, const Noise& noise, const CarSta
 
 // Brakes to a stop and stays there.
 Command CarPlant::emergency(double duration) const {
-  const double hardest = model_.limits.acceleration;
+  const double hardest = kWatchdogBraking * model_.limits.acceleration;
   return {std::clamp(-state_.speed / duration, -hardest, hardest), state_.steering};
 }
 
@@ -59,7 +61,9 @@ void CarPlant::advance(double duration, geom::Vec2 pull) {
   }
   slip_along_.advance(duration, rng_);
   slip_turning_.advance(duration, rng_);
-  const double push = geom::dot(pull, state_.pose.direction()) / kCarMass;
+  const double pulled = geom::dot(pull, state_.pose.direction()) / kCarMass;
+  taken_up_ = towards(taken_up_.value_or(pulled), pulled, kTakeUp, duration);
+  const double push = pulled - *taken_up_;
   state_ = drive_on(model_, noise_, state_, broken_ ? emergency(duration) : acting_, duration,
                     1.0 + slip_along_.value(), 1.0 + slip_turning_.value(), push);
 }

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <optional>
 
 #include "seine/base/rng.hpp"
 #include "seine/geom/pose2.hpp"
@@ -25,7 +26,8 @@ struct CarState {
   double acceleration = 0.0;  ///< m/s²
 };
 
-inline constexpr double kCarMass = 15.0;  ///< kg: only the net's pull on a car depends on it
+inline constexpr double kCarMass = 15.0;  ///< kg: only what the net's pull does to a car depends on it …
+inline constexpr double kTakeUp = 0.15;   ///< s, … until the motor's own speed loop has taken it up
 
 /// One step of the bicycle with its lags towards `wanted`: exact arc for the mean speed and curvature.
 /// `stretch` and `twist` are factors on the distance and the turn (1 without slip), `push` is an acceleration
@@ -43,7 +45,7 @@ class CarPlant {
   const CarState& state() const { return state_; }
   /// Takes effect after the dead time.
   void command(const Command& command) { waiting_.push_back({time_ + noise_.dead_time, command}); }
-  /// The car's own electronics gives up: whatever it is told, it brakes with the wheel held.
+  /// The car's computer fails: its watchdog brakes with the wheel held, whatever it is told.
   void break_down() { broken_ = true; }
   /// @param pull N, of the net on its attachment, horizontal
   void advance(double duration, geom::Vec2 pull);
@@ -63,6 +65,7 @@ class CarPlant {
   std::deque<Waiting> waiting_;
   DriftingError slip_along_, slip_turning_;
   double time_ = 0.0;
+  std::optional<double> taken_up_;  // m/s², of the net's pull
   bool broken_ = false;
 };
 

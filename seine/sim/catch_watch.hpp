@@ -32,7 +32,8 @@ inline constexpr double kCatchTime = 2.5;  ///< s from the rim to rest
 class CatchWatch {
  public:
   /// @param rim height of the corners, m
-  CatchWatch(std::size_t ball, double rim) : ball_(ball), rim_(rim) {}
+  /// @param fate `caught` for what lies in the net from the beginning
+  CatchWatch(std::size_t ball, double rim, Fate fate = Fate::flying) : ball_(ball), rim_(rim), fate_(fate) {}
 
   /// To be called after every step of `physics`, at most some milliseconds apart.
   void look(double time, const NetPhysics& physics, std::span<const geom::Vec3> corners);
@@ -55,7 +56,7 @@ class CatchWatch {
 
   std::size_t ball_;
   double rim_;
-  Fate fate_ = Fate::flying;
+  Fate fate_;
   bool touched_ = false, through_ = false;
   double crossing_ = 0.0, caught_ = 0.0, lowest_ = 1e9, rebound_ = -1e9;
   double rest_ = 0.0, untouched_ = 0.0;  // s

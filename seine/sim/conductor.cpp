@@ -1,0 +1,119 @@
+#include "seine/sim/conductor.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include "seine/net/flight.hpp"
+#include "seine/sim/stopping.hpp"
+
+namespace seine::sim {
+namespace {
+
+constexpr double kLastAsk = 0.25;  // s before a catch the plan is left alone
+constexpr double kSilence = 0.1;   // s without an answer: a car is taken for broken
+constexpr double kBlind = 1.0;     // s without a fix are too long to go on
+constexpr int kFailures = 3;       // of a controller in a row are too many to go on
+constexpr double kOffWay = 0.5;    // m beside its reference a car is lost
+
+std::string centimetres(double metres) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.0f cm", 100.0 * metres);
+  return text;
+}
+
+}  // namespace
+
+Conductor::Conductor(const world::Scenario& scenario, const traj::TeamTrajectory& plan,
+                     const SimulationOptions& options)
+    : scenario_(scenario), options_(options), plan_(plan) {}
+
+std::string Conductor::name(std::size_t robot) const {
+  const std::string& given = scenario_.robots[robot].name;
+  return given.empty() ? "robot " + std::to_string(robot + 1) : given;
+}
+
+std::vector<std::string> Conductor::news() {
+  return std::exchange(news_, {});
+}
+
+void Conductor::decide(double time, std::span<const Car> cars, const std::vector<net::Target>& in_the_air) {
+  if (!stopping_) {
+    if (const auto why = reason_to_stop(time, cars)) {
+      stopping_ = true;
+      candidate_.reset();
+      news_.push_back(*why + ": the team stops");
+    }
+  }
+  if (stopping_) {
+    const CarState silent = silent_ ? cars[*silent_].belief() : CarState{};
+    clock_.accelerate(stopping_change(scenario_, plan_, clock_, silent_, silent));
+    return;
+  }
+  if (candidate_ && time >= candidate_->begin - 1e-9) weigh(time, in_the_air);
+  if (time_to_ask(time, in_the_air)) ask(time, in_the_air);
+}
+
+std::optional<std::string> Conductor::reason_to_stop(double time, std::span<const Car> cars) {
+  for (const Faults::Breakdown& fault : options_.faults.breakdowns) {
+    if (time < fault.at + kSilence) continue;
+    silent_ = fault.robot;
+    return name(fault.robot) + " does not answer";
+  }
+  for (std::size_t k = 0; k < cars.size(); ++k) {
+    if (cars[k].since_fix() > kBlind) return name(k) + " does not know where it is";
+    if (cars[k].failures() >= kFailures) return name(k) + " has no controller";
+    const geom::Vec2 reference = clock_.state_on(plan_.robots[k]).pose.position();
+    const double off = geom::norm(cars[k].belief().pose.position() - reference);
+    if (off > kOffWay) return name(k) + " is " + centimetres(off) + " off its way";
+  }
+  return std::nullopt;
+}
+
+bool Conductor::time_to_ask(double time, const std::vector<net::Target>& in_the_air) const {
+  if (!options_.replanner || candidate_ || time < next_ask_ - 1e-9) return false;
+  double next_catch = 1e300;
+  for (const net::Target& target : in_the_air) {
+    const auto crossing = net::Flight(target).crossing(scenario_.net->rim());
+    if (crossing) next_catch = std::min(next_catch, crossing->state.time);
+  }
+  return next_catch < 1e300 && time + options_.replan_deadline < next_catch - kLastAsk;
+}
+
+void Conductor::ask(double time, const std::vector<net::Target>& in_the_air) {
+  next_ask_ = time + options_.replan_period;
+  ++asked_;
+  Candidate candidate;
+  candidate.begin = time + options_.replan_deadline;
+  const double plan_time = clock_.ahead(options_.replan_deadline).time();
+  const Situation situation{task_left(scenario_, plan_, plan_time, candidate.begin, in_the_air), plan_,
+                            plan_time, options_.replan_deadline};
+  candidate.answer = options_.replanner(situation);
+  candidate.late = candidate.answer.seconds > options_.replan_deadline;
+  for (const Faults::LateReplan& fault : options_.faults.late_replans)
+    candidate.late = candidate.late || (time >= fault.from && time < fault.from + fault.duration);
+  candidate_ = std::move(candidate);
+}
+
+// The answer is looked at when its plan would begin: by what is known then.
+void Conductor::weigh(double time, const std::vector<net::Target>& in_the_air) {
+  const Candidate candidate = *std::exchange(candidate_, std::nullopt);
+  if (candidate.late) {
+    ++late_;
+    news_.push_back("a plan came too late and is not used");
+    return;
+  }
+  if (!candidate.answer.certified) return;
+  const Worth now = worth_of(scenario_, plan_, begin_, in_the_air);
+  const Worth then = worth_of(scenario_, candidate.answer.plan, candidate.begin, in_the_air);
+  if (!better(then, now)) return;
+  plan_ = candidate.answer.plan;
+  begin_ = candidate.begin;
+  clock_ = PlanClock(time - begin_);
+  ++adopted_;
+  news_.push_back("a new plan is followed: margins lack " + centimetres(then.shortfall) + " instead of " +
+                  centimetres(now.shortfall));
+}
+
+}  // namespace seine::sim
