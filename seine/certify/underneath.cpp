@@ -13,7 +13,8 @@ using geom::Vec2;
 using world::StaticMap;
 
 namespace {
-constexpr int kMostSteps = 1 << 16;  // of one interval; sane ones need a handful
+constexpr int kMostSteps = 1 << 16;        // of one interval; sane ones need a handful
+constexpr long kMostStepsInAll = 1 << 17;  // of one team, so that a wild plan is not looked at for minutes
 // Beats that share a query of the map: their boxes overlap almost wholly.
 constexpr std::size_t kBlock = 8;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -187,7 +188,8 @@ void UnderneathProof::met(double room, double time) {
 bool UnderneathProof::give_up(double time, int depth) {
   if (++steps_ % 512 == 0) context_.out_of_time();
   const bool late = depth > 4 && context_.expired.load(std::memory_order_relaxed);
-  if (depth < kDeepest && steps_ < kMostSteps && !late) return false;
+  ++steps_in_all_;
+  if (depth < kDeepest && steps_ < kMostSteps && steps_in_all_ < kMostStepsInAll && !late) return false;
   if (!(worst_.room < -tolerance::kNetSeen)) undecided_ = time;
   return true;
 }

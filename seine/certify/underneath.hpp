@@ -81,6 +81,7 @@ class UnderneathProof {
   geom::Vec2 normal_;  // the last one that parted the net from this body; zero: none yet
   Broken worst_{};
   int steps_ = 0;
+  long steps_in_all_ = 0;
   std::optional<double> undecided_;
   std::vector<Placed> levels_;
   std::map<int, Episodes> pieces_;

@@ -110,7 +110,8 @@ std::optional<FormationGuess> guess_formation(const world::Scenario& scenario, c
   if (attempt > 0) {
     settings = {.max_expansions = kShapeExpansions, .field = true};
     if (attempt % 2 == 1) settings.heuristic_weight = kGreedy;
-    if (attempt == 3) settings.backward = false;
+    // The optimiser holds the net open longer than the guess did, if it has to.
+    if (attempt >= 3) problem.hold = 0.0;
     add_narrow_shapes(scenario, question, problem);
   }
   auto way = search::search_formation(problem, settings);

@@ -13,7 +13,7 @@
 namespace seine::planner {
 namespace {
 
-constexpr int kAttempts = 4;
+constexpr int kAttempts = 5;
 constexpr int kPolishRounds = 6, kGoOnRounds = 3;
 constexpr double kGoOnDecrease = 2e-3;  // an optimum a little off needs no more than a touch
 constexpr std::size_t kShareCars = 8;
@@ -51,7 +51,7 @@ PlanResult NetSession::run() {
   if (options_.previous != nullptr && go_on()) return finish();
   for (int attempt = 0; attempt < kAttempts && !deadline_.expired(); ++attempt) {
     if (!guess(attempt)) {
-      if (attempt < 2) continue;
+      if (attempt < 3) continue;
       break;
     }
     const Stopwatch watch;
