@@ -128,10 +128,6 @@ void catches(int instances) {
     print("throw, " + std::to_string(robots) + " cars",
           run(instances, [&](std::uint64_t seed) { return world::throw_scene(robots, seed); }));
   for (const int robots : {3, 4, 6}) replan(robots, instances);
-  for (const int robots : {3, 4, 6})
-    print("throw, dense, " + std::to_string(robots) + " cars", run(instances, [&](std::uint64_t seed) {
-            return world::throw_scene(robots, seed, world::Clutteredness::dense);
-          }));
   for (const double width : {2.6, 2.2, 1.9})
     for (const int robots : {3, 4, 6}) {
       char name[64];
@@ -140,6 +136,10 @@ void catches(int instances) {
                       [&](std::uint64_t seed) { return world::gap_scene(robots, seed, width); }));
     }
   carries();
+  for (const int robots : {3, 4, 6})
+    print("throw, dense, " + std::to_string(robots) + " cars", run(instances, [&](std::uint64_t seed) {
+            return world::throw_scene(robots, seed, world::Clutteredness::dense);
+          }));
 }
 
 int cusps_of(const traj::TeamTrajectory& team) {
