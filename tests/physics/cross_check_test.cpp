@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "seine/sim/test/drops.hpp"
+#include "seine/sim/drops.hpp"
 #include "tests/physics/mujoco_net.hpp"
 
 namespace seine::sim {

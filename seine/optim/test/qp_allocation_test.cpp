@@ -6,7 +6,7 @@
 #include <atomic>
 #include <cstdlib>
 
-#include "qp_file.hpp"
+#include "seine/optim/test/qp_file.hpp"
 
 namespace {
 std::atomic<long> g_allocations{0};

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "qp_file.hpp"
+#include "seine/optim/test/qp_file.hpp"
 
 namespace seine::optim {
 namespace {

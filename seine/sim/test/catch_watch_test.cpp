@@ -5,7 +5,7 @@
 
 #include <functional>
 
-#include "seine/sim/test/drops.hpp"
+#include "seine/sim/drops.hpp"
 
 namespace seine::sim {
 namespace {

@@ -7,7 +7,7 @@
 #include <array>
 
 #include "seine/net/flight.hpp"
-#include "seine/sim/test/drops.hpp"
+#include "seine/sim/drops.hpp"
 
 namespace seine::sim {
 namespace {

@@ -4,13 +4,35 @@
 
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <numeric>
+#include <vector>
 
+#include "seine/base/rng.hpp"
 #include "seine/geom/polygon.hpp"
-#include "seine/net/test/nets.hpp"
 
 namespace seine::sim {
 namespace {
+
+std::vector<geom::Vec2> regular_polygon(std::size_t corners, double radius) {
+  std::vector<geom::Vec2> polygon;
+  for (std::size_t k = 0; k < corners; ++k)
+    polygon.push_back(
+        radius * geom::unit(2.0 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(corners)));
+  return polygon;
+}
+
+// Convex and counter-clockwise: points of an ellipse at irregular angles.
+std::vector<geom::Vec2> random_convex(Rng& rng, std::size_t corners) {
+  const double flat = rng.uniform(0.6, 1.0);
+  std::vector<geom::Vec2> polygon;
+  for (std::size_t k = 0; k < corners; ++k) {
+    const double place = static_cast<double>(k) + rng.uniform(0.0, 0.7);
+    const geom::Vec2 at = geom::unit(2.0 * std::numbers::pi * place / static_cast<double>(corners));
+    polygon.push_back({at.x, flat * at.y});
+  }
+  return polygon;
+}
 
 using geom::Vec2;
 
@@ -25,7 +47,7 @@ std::vector<Vec2> corners_of(const NetMesh& mesh, const std::array<int, 3>& face
 TEST(NetMesh, CoversTheNetOnceWithoutHoles) {
   Rng rng(kSeed);
   for (int round = 0; round < 30; ++round) {
-    const std::vector<Vec2> rest = net::random_convex(rng, 3 + static_cast<std::size_t>(rng.below(6)));
+    const std::vector<Vec2> rest = random_convex(rng, 3 + static_cast<std::size_t>(rng.below(6)));
     const NetMesh mesh = triangulate(rest, rng.uniform(0.1, 0.4));
     double area = 0.0;
     std::map<std::pair<int, int>, int> sides;
@@ -54,7 +76,7 @@ TEST(NetMesh, CoversTheNetOnceWithoutHoles) {
 
 TEST(NetMesh, EveryNodeReachesEveryCornerStraight) {
   Rng rng(kSeed);
-  const std::vector<Vec2> rest = net::random_convex(rng, 5);
+  const std::vector<Vec2> rest = random_convex(rng, 5);
   const NetMesh mesh = triangulate(rest);
   std::map<std::pair<int, int>, double> cords;
   for (const Cord& cord : mesh.cords) cords[std::minmax(cord.a, cord.b)] = cord.rest;
@@ -70,7 +92,7 @@ TEST(NetMesh, EveryNodeReachesEveryCornerStraight) {
 }
 
 TEST(NetMesh, DrapedOverItsOwnCornersItIsFlat) {
-  const std::vector<Vec2> rest = net::regular_polygon(4, 1.4);
+  const std::vector<Vec2> rest = regular_polygon(4, 1.4);
   const NetMesh mesh = triangulate(rest);
   std::vector<geom::Vec3> corners;
   for (const Vec2 r : rest) corners.push_back({r.x, r.y, 1.0});
