@@ -60,7 +60,7 @@ function(seine_add_room room)
     target_link_libraries(${room}_test PRIVATE ${target} seine_flags GTest::gtest GTest::gtest_main)
     target_compile_definitions(${room}_test PRIVATE SEINE_DATA_DIR="${PROJECT_SOURCE_DIR}/data")
     add_test(NAME ${room} COMMAND ${room}_test)
-    set_tests_properties(${room} PROPERTIES TIMEOUT 600)
+    set_tests_properties(${room} PROPERTIES TIMEOUT 1800)
   endif()
 endfunction()
 
