@@ -8,11 +8,28 @@
 
 namespace seine::planner {
 
-/// A guess for the whole team: the translating formation through all rendezvous to the delivery. Attempts
-/// differ in what they try: as it stands at the start; going round what is tall; narrower and turned.
-/// @param reason why there is none
-std::optional<FormationGuess> guess_formation(const world::Scenario& scenario, const world::StaticMap& map,
-                                              const NetQuestion& question, int attempt,
-                                              const Deadline& deadline, std::string& reason);
+/// Guesses for the whole team: the translating formation through all rendezvous to the delivery. Attempts
+/// differ in what they try, and share what they learn of the ground.
+class FormationGuesser {
+ public:
+  static constexpr int kAttempts = 5;
+
+  FormationGuesser(const world::Scenario& scenario, const world::StaticMap& map, const NetQuestion& question,
+                   const Deadline& deadline);
+
+  /// The first attempt holds the cars as they stand at the start; later ones go round what is tall, narrower
+  /// and turned where they must.
+  std::optional<FormationGuess> guess(int attempt);
+
+ private:
+  void offer_narrow_shapes();
+  FormationGuess assemble(search::FormationPath way) const;
+
+  const world::Scenario& scenario_;
+  const NetQuestion& question_;
+  std::optional<search::Formation> last_;  // in which the team ends where every robot has a goal
+  search::FormationSearch search_;
+  bool narrow_ = false;
+};
 
 }  // namespace seine::planner

@@ -7,17 +7,19 @@
 #include "seine/net/catch_rules.hpp"
 #include "seine/planner/formation_guess.hpp"
 #include "seine/planner/moving_bodies.hpp"
+#include "seine/planner/net_faults.hpp"
 #include "seine/planner/previous_fit.hpp"
 #include "seine/world/check.hpp"
 
 namespace seine::planner {
 namespace {
 
-constexpr int kAttempts = 5;
 constexpr int kPolishRounds = 6, kGoOnRounds = 3;
+// A plan that is worse than this, or that no round brings closer by so much, is not going to hold.
+constexpr double kHopeless = 1.0, kProgress = 0.6, kNearly = 0.05;
 constexpr double kGoOnDecrease = 2e-3;  // an optimum a little off needs no more than a touch
 constexpr std::size_t kShareCars = 8;
-constexpr double kTick = 0.0667;  // of the time a car takes to drive its own length
+constexpr double kTick = 0.1334;  // of the time a car takes to drive its own length
 // One path for all: longer pieces than for a car among others, for nobody has to dodge anybody.
 constexpr FitOptions kFit{.piece_length = 2.4};
 constexpr double kPenaltyRaise = 3.0, kMostPenalty = 100.0;
@@ -49,21 +51,23 @@ PlanResult NetSession::run() {
     return finish();
   }
   if (options_.previous != nullptr && go_on()) return finish();
-  for (int attempt = 0; attempt < kAttempts && !deadline_.expired(); ++attempt) {
-    if (!guess(attempt)) {
-      if (attempt < 3) continue;
-      break;
-    }
+  guess_and_solve();
+  return finish();
+}
+
+void NetSession::guess_and_solve() {
+  FormationGuesser guesser(scenario_, map_, question_, deadline_);
+  for (int attempt = 0; attempt < FormationGuesser::kAttempts && !deadline_.expired(); ++attempt) {
+    if (!guess(guesser, attempt)) continue;
     const Stopwatch watch;
     tasks_ = fit_formation(guess_, scenario_, map_, kFit);
     prepare();
     result_.times.corridor += watch.seconds();
     solve(true);
     polish(kPolishRounds);
-    if (result_.certified) break;
+    if (result_.certified) return;
     ++result_.repairs;
   }
-  return finish();
 }
 
 // From what is left of an earlier plan.
@@ -79,14 +83,13 @@ bool NetSession::go_on() {
   return result_.certified;
 }
 
-bool NetSession::guess(int attempt) {
+bool NetSession::guess(FormationGuesser& guesser, int attempt) {
   const Stopwatch watch;
   report("guess", 0.0);
-  std::string reason;
-  auto found = guess_formation(scenario_, map_, question_, attempt, deadline_, reason);
+  auto found = guesser.guess(attempt);
   result_.times.guess += watch.seconds();
   if (!found) {
-    if (result_.certificate.violations.empty() && !reason.empty()) result_.reason = reason;
+    if (result_.certificate.violations.empty()) result_.reason = "no passage for the formation found";
     return false;
   }
   guess_ = std::move(*found);
@@ -154,8 +157,12 @@ bool NetSession::certify() {
 }
 
 void NetSession::polish(int rounds) {
+  double before = kHopeless;
   for (int round = 0; round < rounds; ++round) {
     if (certify() || deadline_.expired()) return;
+    const double now = severity(result_.certificate);
+    if (now > kHopeless || (round > 1 && now > kNearly && now > kProgress * before)) return;
+    before = now;
     report("repair", static_cast<double>(round) / rounds);
     raise_demands(round);
     solve(false);
@@ -209,7 +216,8 @@ void NetSession::raise_demands(int round) {
         net_.spread_slack += kNetRaise;
         break;
       case certify::Kind::net_opening:
-        for (trajopt::CatchTask& c : net_.catches) c.held_opening += kOpeningRaise;
+        for (trajopt::CatchTask& c : net_.catches)
+          c.held_opening += std::clamp(v.limit - v.value, 0.0, 0.03) + kOpeningRaise;
         break;
       case certify::Kind::target_catch:
         raise_catch(static_cast<std::size_t>(v.other));
@@ -233,7 +241,8 @@ void NetSession::raise_catch(std::size_t target) {
     task.margin += missing(found.rim_margin, net::kRimMargin) + kCatchRaise;
   if (found.contact_margin < net::kContactMargin)
     task.contact_margin += missing(found.contact_margin, net::kContactMargin) + kCatchRaise;
-  if (found.opening < net::kLeastOpening) task.least_opening += kOpeningRaise;
+  if (found.opening < net::kLeastOpening)
+    task.least_opening += missing(found.opening, net::kLeastOpening) + kOpeningRaise;
   if (found.speed > net::speed_limit(found.depth, thrown.radius, net_.net.rebound)) {
     task.most_radius -= kCatchRaise;
     task.most_sideways -= kSidewaysRaise;

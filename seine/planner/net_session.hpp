@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "seine/base/workers.hpp"
-#include "seine/planner/formation_fit.hpp"
+#include "seine/planner/formation_guess.hpp"
 #include "seine/planner/net_question.hpp"
 #include "seine/planner/planner.hpp"
 #include "seine/trajopt/joint_problem.hpp"
@@ -21,7 +21,8 @@ class NetSession {
 
  private:
   bool go_on();
-  bool guess(int attempt);
+  void guess_and_solve();
+  bool guess(FormationGuesser& guesser, int attempt);
   void prepare();
   void solve(bool soft);
   bool certify();

@@ -28,6 +28,14 @@ Formation start_formation(const world::Scenario& scenario) {
   return formation;
 }
 
+void between(const Formation& from, const Formation& to, double share, Formation& out) {
+  const double r = std::clamp(share, 0.0, 1.0), smooth = r * r * (3.0 - 2.0 * r);
+  out.lowest = std::min(from.lowest, to.lowest);
+  out.offsets.resize(from.offsets.size());
+  for (std::size_t k = 0; k < from.offsets.size(); ++k)
+    out.offsets[k] = (1.0 - smooth) * from.offsets[k] + smooth * to.offsets[k];
+}
+
 void attachments_at(const world::Scenario& scenario, const Formation& formation, const Pose2& frame,
                     std::vector<Vec2>& out) {
   const Vec2 d = frame.direction();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -51,7 +52,8 @@ struct FormationProblem {
   /// The first is held at the start, at every rendezvous and for `hold` metres after it; the others only
   /// where the first does not pass.
   std::vector<Formation> shapes;
-  double hold = 0.0;  ///< m
+  double hold = 0.0;    ///< m
+  double change = 3.0;  ///< m over which the formation changes from one shape to the next
   std::vector<LowPiece> low;
   std::vector<Rendezvous> meetings;   ///< in order of time
   std::optional<FormationGoal> goal;  ///< absent: stop anywhere after the last rendezvous
@@ -68,7 +70,7 @@ struct FormationSettings {
 /// A way of the frame, where on it each rendezvous is passed, and which shape is held from where on.
 struct FormationPath {
   struct Shape {
-    double s;  ///< m driven
+    double begin, s;  ///< m driven: changed to between these, held from then on
     int shape;
   };
   Path path;
@@ -77,10 +79,30 @@ struct FormationPath {
   int expansions = 0;
 };
 
+/// Offsets on the way from one shape to another. @param share of the way, 0 … 1, smooth at both ends
+void between(const Formation& from, const Formation& to, double share, Formation& out);
+
+class FormationGround;
+
 /// Hybrid A* over (x, y, θ, rendezvous passed) for the whole formation: every footprint keeps its distance to
-/// everything, the net to what is tall. The cost is time. Deterministic.
-std::optional<FormationPath> search_formation(const FormationProblem& problem,
-                                              const FormationSettings& settings);
+/// everything, the net to what is tall, also while the shape changes. The cost is time. Deterministic.
+class FormationSearch {
+ public:
+  /// What the problem points to must outlive this.
+  explicit FormationSearch(FormationProblem problem);
+  ~FormationSearch();
+
+  const FormationProblem& problem() const { return *problem_; }
+  /// More shapes for where the first does not pass.
+  void offer(std::vector<Formation> narrow);
+  void set_hold(double metres) { problem_->hold = metres; }
+  std::optional<FormationPath> find(const FormationSettings& settings);
+
+ private:
+  std::unique_ptr<FormationProblem> problem_;
+  std::unique_ptr<FormationGround> ground_;
+  bool ways_known_ = false;
+};
 
 /// When the frame is where: as fast as the limits of all cars allow, but not before its time at a rendezvous;
 /// it drives slower rather than waits.

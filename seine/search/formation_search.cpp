@@ -1,12 +1,9 @@
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <numbers>
 #include <unordered_map>
 
-#include "seine/search/cost_to_go.hpp"
-#include "seine/search/formation.hpp"
-#include "seine/search/point_distances.hpp"
+#include "seine/search/formation_ground.hpp"
 #include "seine/vehicle/arc.hpp"
 
 namespace seine::search {
@@ -23,12 +20,12 @@ constexpr double kCell = 0.5;
 constexpr int kHeadings = 32;
 constexpr double kForwardTurns[] = {0.0, 0.22, -0.22, 0.5, -0.5, 0.88, -0.88};  // of κ_max
 constexpr double kBackwardTurns[] = {0.0, 0.5, -0.5, 0.88, -0.88};
-constexpr double kCarSlack = 0.05, kNetSlack = 0.05;       // on top of the margins
 constexpr double kCurvedPrice = 0.02;                      // share of a step's time
 constexpr double kSteeringPrice = 0.05, kGearPrice = 1.0;  // of v / a, s
 constexpr double kShapePrice = 0.3;                        // of v / a, s
 constexpr double kAcross = 0.6;  // sine of the angle to its direction at which a narrow shape is of use
 constexpr double kLateralShare = 0.8;
+constexpr double kLeastChange = 0.5;  // of the length that a change of shape is given
 constexpr double kStopShare = 0.6;  // of the acceleration limit, to stop after the last rendezvous
 
 struct Limits {
@@ -55,7 +52,10 @@ struct Node {
   Pose2 pose;
   Arc arc;  // that led here
   double cost, estimate;
-  double after;  // m driven since the last rendezvous was passed
+  double after;       // m driven since the last rendezvous was passed
+  double s;           // m driven
+  double held_since;  // m driven when the shape was complete
+  double change;      // m over which it changed to that
   int parent;    // −1 at the root
   int phase;     // rendezvous passed
   int shape;     // held on the way here
@@ -64,9 +64,10 @@ struct Node {
 
 class Lattice {
  public:
-  Lattice(const FormationProblem& problem, const FormationSettings& settings)
+  Lattice(const FormationProblem& problem, const FormationSettings& settings, FormationGround& ground)
       : p_(problem),
         s_(settings),
+        ground_(ground),
         scenario_(*problem.scenario),
         limits_(limits_of(scenario_)),
         step_(kStep * limits_.length),
@@ -77,7 +78,6 @@ class Lattice {
     if (s_.forward) fan(kForwardTurns, step_);
     if (s_.backward && limits_.reverse_speed > 0.0) fan(kBackwardTurns, -step_);
     legs_ahead();
-    if (s_.field) make_fields();
   }
 
   std::optional<FormationPath> run();
@@ -92,16 +92,13 @@ class Lattice {
   };
 
   int meetings() const { return static_cast<int>(p_.meetings.size()); }
-  Vec2 middle(const Pose2& pose, int shape);
+  Vec2 middle(const Pose2& pose, int held) { return ground_.middle(pose, shape(held)); }
   const Formation& shape(int index) const { return p_.shapes[static_cast<std::size_t>(index)]; }
   void legs_ahead();
-  void make_fields();
   double ahead(const Node& node);
-  double to(std::size_t place, Vec2 point);
   double time_of(const Arc& arc, const Arc* before) const;
-  bool clear(const Pose2& pose, const Formation& formation);
-  bool clear_below(const Formation& formation) const;
-  bool may_hold(const Node& node) const;
+  bool begin_change(Node& node) const;
+  bool change_clear(const Node& node);
   void offer_shapes(int index);
   bool check(int index);
   void expand(int index);
@@ -118,30 +115,17 @@ class Lattice {
 
   const FormationProblem& p_;
   const FormationSettings& s_;
+  FormationGround& ground_;
   const world::Scenario& scenario_;
   Limits limits_;
   double step_, cell_;
   std::vector<Arc> moves_;
-  struct Disc {
-    double ahead, outer, inner;  // m: of the centre along the heading; around, and inside the footprint
-  };
-  std::vector<Disc> discs_;
-  std::unique_ptr<PointDistances> ground_;
   std::vector<double> beyond_;  // per phase: m from the next place to the end of the way, at least
-  std::unique_ptr<PointDistances> distances_;
-  std::vector<std::unique_ptr<CostToGo>> fields_;  // to each rendezvous, then to the goal
+  Formation between_;  // room
   std::vector<Node> nodes_;
   std::vector<Entry> open_;
   std::unordered_map<std::uint64_t, int> bins_;
-  std::vector<Vec2> polygon_, attachments_;
 };
-
-Vec2 Lattice::middle(const Pose2& pose, int shape_held) {
-  attachments_at(scenario_, shape(shape_held), pose, attachments_);
-  Vec2 sum;
-  for (const Vec2 a : attachments_) sum += a;
-  return sum / static_cast<double>(attachments_.size());
-}
 
 void Lattice::legs_ahead() {
   const auto count = p_.meetings.size();
@@ -156,47 +140,11 @@ void Lattice::legs_ahead() {
   }
 }
 
-// A disc in the middle of the net, as large as the formation's polygon leaves room for, goes around what is
-// tall.
-void Lattice::make_fields() {
-  double radius = std::numeric_limits<double>::infinity();
-  for (int k = 0; k < static_cast<int>(p_.shapes.size()); ++k) {
-    const Vec2 center = middle(p_.start, k);
-    for (std::size_t i = 0; i < attachments_.size(); ++i) {
-      const Vec2 a = attachments_[i], b = attachments_[(i + 1) % attachments_.size()], e = b - a;
-      radius = std::min(radius, geom::cross(e, center - a) / geom::norm(e));
-    }
-  }
-  radius = std::max(0.8 * radius, 0.2 * limits_.length);
-  ground_ = std::make_unique<PointDistances>(*p_.map, 0.15 * limits_.length, 2.0 * limits_.length);
-  for (const world::Robot& robot : scenario_.robots) {
-    const geom::Box box = geom::bounding_box(scenario_.model_of(robot).footprint);
-    Disc disc{box.center().x, 0.0, 0.5 * std::min(box.size().x, box.size().y)};
-    for (const Vec2 corner : scenario_.model_of(robot).footprint)
-      disc.outer = std::max(disc.outer, geom::norm(corner - Vec2{disc.ahead, 0.0}));
-    // Only of a rectangle is the inner disc known to be inside.
-    if (scenario_.model_of(robot).footprint.size() != 4 || std::abs(box.center().y) > 1e-9) disc.inner = 0.0;
-    discs_.push_back(disc);
-  }
-  distances_ = std::make_unique<PointDistances>(*p_.tall, 0.5 * radius, 4.0 * radius);
-  const DiscWay way{.distances = distances_.get(), .radius = radius};
-  for (const Rendezvous& meeting : p_.meetings)
-    fields_.push_back(std::make_unique<CostToGo>(way, meeting.point));
-  if (p_.goal) fields_.push_back(std::make_unique<CostToGo>(way, p_.goal->center));
-}
-
-double Lattice::to(std::size_t place, Vec2 point) {
-  const bool goal = place == p_.meetings.size();
-  const Vec2 target = goal ? p_.goal->center : p_.meetings[place].point;
-  const double straight = geom::norm(point - target);
-  return fields_.empty() ? straight : std::max(straight, (*fields_[place])(point));
-}
-
 double Lattice::ahead(const Node& here) {
   const auto i = static_cast<std::size_t>(here.phase);
   if (here.phase == meetings() && !p_.goal) return 0.0;
   const double reach = here.phase == meetings() ? p_.goal->radius : p_.meetings[i].reach;
-  return (std::max(0.0, to(i, middle(here.pose, here.shape)) - reach) + beyond_[i]) / limits_.speed;
+  return (std::max(0.0, ground_.to(i, middle(here.pose, here.shape), s_.field) - reach) + beyond_[i]) / limits_.speed;
 }
 
 double Lattice::time_of(const Arc& arc, const Arc* before) const {
@@ -213,59 +161,51 @@ double Lattice::time_of(const Arc& arc, const Arc* before) const {
   return time;
 }
 
-bool Lattice::clear(const Pose2& pose, const Formation& formation) {
-  const double clearance = scenario_.margins.obstacle + kCarSlack * limits_.length;
-  const Vec2 forward = pose.direction();
-  for (std::size_t k = 0; k < scenario_.robots.size(); ++k) {
-    const vehicle::Model& model = scenario_.model_of(scenario_.robots[k]);
-    const Vec2 at = pose.position() + formation.offsets[k];
-    if (ground_) {
-      // Most poses are far from everything, or plainly in it.
-      const Disc& disc = discs_[k];
-      const auto room = ground_->bounds(at + disc.ahead * forward);
-      if (room.lower >= disc.outer + clearance) continue;
-      if (room.upper < disc.inner + clearance) return false;
-    }
-    polygon_.resize(model.footprint.size());
-    geom::place(model.footprint, {at.x, at.y, pose.heading}, polygon_);
-    if (!p_.map->clear(polygon_, clearance)) return false;
-  }
-  attachments_at(scenario_, formation, pose, attachments_);
-  return p_.tall->clear(attachments_, kNetSlack * limits_.length) && clear_below(formation);
+// A shape is complete at the end of the step on which a node takes it on, and the change begins before: not
+// while the shape before is being taken on, nor while a catch wants the net as it was.
+bool Lattice::begin_change(Node& here) const {
+  const Node& from = nodes_[static_cast<std::size_t>(here.parent)];
+  const double step = std::abs(here.arc.distance);
+  here.held_since = from.s + step;
+  here.change = std::min(p_.change, here.held_since - from.held_since);
+  if (here.phase > 0) here.change = std::min(here.change, from.after + step - p_.hold);
+  return here.change >= kLeastChange * p_.change;
 }
 
-// Whether the net, at attachments_, hangs above everything low that it is over.
-bool Lattice::clear_below(const Formation& formation) const {
-  const geom::Box box = geom::bounding_box(attachments_);
-  for (const LowPiece& low : p_.low) {
-    if (low.height <= formation.lowest || !box.overlaps(low.shape.box())) continue;
-    if (geom::distance_up_to(attachments_, low.shape.core, low.shape.radius + 1.0) < low.shape.radius)
-      return false;
+// The way back to where the change begins, with the cars between both shapes.
+bool Lattice::change_clear(const Node& here) {
+  const Formation &old = shape(node(here.parent).shape), &now = shape(here.shape);
+  const double begin = here.held_since - here.change;
+  for (const Node* at = &here; at->parent >= 0 && at->s > begin; at = &node(at->parent)) {
+    const Node& from = node(at->parent);
+    for (int i = kChecks; i > 0; --i) {
+      const double distance = at->arc.distance * i / kChecks, s = from.s + std::abs(distance);
+      if (s <= begin) break;
+      between(old, now, (s - begin) / here.change, between_);
+      if (!ground_.clear(vehicle::drive(from.pose, at->arc.curvature, distance), between_)) return false;
+    }
   }
   return true;
-}
-
-// A catch wants the net as it was at the start, and for a while after.
-bool Lattice::may_hold(const Node& here) const {
-  return here.shape == 0 || here.phase == 0 || here.after > p_.hold;
 }
 
 // Drives a node's last step pose by pose: clear all the way, and past which rendezvous?
 bool Lattice::drive_to(Node& here) {
   const Node& from = node(here.parent);
-  if (!may_hold(here)) return false;
+  const double step = std::abs(here.arc.distance);
+  here.s = from.s + step;
+  here.after = from.after + step;
+  if (here.shape != from.shape) return begin_change(here) && change_clear(here);
   for (int i = 1; i <= kChecks; ++i) {
     const double distance = here.arc.distance * i / kChecks;
     const Pose2 pose = vehicle::drive(from.pose, here.arc.curvature, distance);
-    if (!clear(pose, shape(here.shape))) return false;
+    if (!ground_.clear(pose, shape(here.shape))) return false;
     while (here.phase < meetings() && here.shape == 0) {
       const Rendezvous& meeting = p_.meetings[static_cast<std::size_t>(here.phase)];
       if (geom::norm(middle(pose, 0) - meeting.point) > meeting.reach) break;
       ++here.phase;
-      here.after = -std::abs(distance);
+      here.after = step - std::abs(distance);
     }
   }
-  here.after += std::abs(here.arc.distance);
   return true;
 }
 
@@ -316,6 +256,9 @@ void Lattice::add(int index, const Arc& move, int shape_held) {
              .cost = 0.0,
              .estimate = 0.0,
              .after = parent.after,
+             .s = parent.s,
+             .held_since = parent.held_since,
+             .change = 0.0,
              .parent = index,
              .phase = parent.phase,
              .shape = shape_held};
@@ -364,6 +307,9 @@ std::optional<FormationPath> Lattice::run() {
             .cost = 0.0,
             .estimate = 0.0,
             .after = 0.0,
+            .s = 0.0,
+            .held_since = 0.0,
+            .change = 0.0,
             .parent = -1,
             .phase = 0,
             .shape = 0};
@@ -408,19 +354,23 @@ FormationPath Lattice::path_to(int index) {
       {0.0, p_.start, first != nullptr ? first->curvature : 0.0, first != nullptr ? first->gear() : 1});
   double s = 0.0;
   int phase = 0;
-  result.shapes.push_back({0.0, 0});
+  result.shapes.push_back({0.0, 0.0, 0});
   for (std::size_t i = 1; i < way.size(); ++i) {
     const Arc& arc = node(way[i]).arc;
     const Pose2 from = node(way[i - 1]).pose;
     if (points.back().gear != arc.gear()) points.push_back({s, from, arc.curvature, arc.gear()});
     points.back().curvature = arc.curvature;
     const int held = node(way[i]).shape;
-    if (held != result.shapes.back().shape) result.shapes.push_back({s, held});
+    const bool changes = held != node(way[i - 1]).shape;
+    if (changes) {
+      const double complete = node(way[i]).held_since;
+      result.shapes.push_back({complete - node(way[i]).change, complete, held});
+    }
     for (int k = 1; k <= kChecks; ++k) {
       const double distance = arc.distance * k / kChecks;
       const Pose2 pose = vehicle::drive(from, arc.curvature, distance);
       points.push_back({s + std::abs(distance), pose, arc.curvature, arc.gear()});
-      while (phase < meetings() && held == 0 &&
+      while (phase < meetings() && held == 0 && !changes &&
              geom::norm(middle(pose, 0) - p_.meetings[static_cast<std::size_t>(phase)].point) <=
                  p_.meetings[static_cast<std::size_t>(phase)].reach) {
         result.meeting_s.push_back(s + std::abs(distance));
@@ -434,9 +384,22 @@ FormationPath Lattice::path_to(int index) {
 
 }  // namespace
 
-std::optional<FormationPath> search_formation(const FormationProblem& problem,
-                                              const FormationSettings& settings) {
-  return Lattice(problem, settings).run();
+FormationSearch::FormationSearch(FormationProblem problem)
+    : problem_(std::make_unique<FormationProblem>(std::move(problem))),
+      ground_(std::make_unique<FormationGround>(*problem_)) {}
+FormationSearch::~FormationSearch() = default;
+
+void FormationSearch::offer(std::vector<Formation> narrow) {
+  std::ranges::move(narrow, std::back_inserter(problem_->shapes));
+  ways_known_ = false;
+}
+
+std::optional<FormationPath> FormationSearch::find(const FormationSettings& settings) {
+  if (settings.field && !ways_known_) {
+    ground_->find_ways(problem_->shapes);
+    ways_known_ = true;
+  }
+  return Lattice(*problem_, settings, *ground_).run();
 }
 
 }  // namespace seine::search

@@ -15,7 +15,7 @@ constexpr bool refresh_at(int iteration) {
 // can close in between two coarse ticks, and what an iterate moves until the next refresh.
 constexpr double kSkin = 1.0, kClose = 0.5;
 // The net looks at every so many ticks; it refreshes from the coarse ones of the pairs.
-constexpr int kNetStride = 2 * Proximity::kStride;
+constexpr int kNetStride = Proximity::kStride;
 // Longest change of any variable (car lengths, logarithms, radians) in one iteration: longer ones are never
 // useful.
 constexpr double kMaxStep = 1.0;

@@ -44,7 +44,7 @@ TEST(Formation, WaysAreClearDriveableAndKeepTheirRendezvous) {
   int found = 0;
   for (std::uint64_t seed = 0; seed < 16; ++seed) {
     Throw t(3 + static_cast<int>(seed % 4), seed);
-    const auto way = search_formation(t.problem, {});
+    const auto way = FormationSearch(t.problem).find({});
     if (!way) continue;
     ++found;
     const auto& points = way->path.points;
@@ -72,7 +72,7 @@ TEST(Formation, WaysAreClearDriveableAndKeepTheirRendezvous) {
 TEST(Formation, TimingKeepsTheLimitsAndIsOnTimeWhereItCanBe) {
   for (std::uint64_t seed = 0; seed < 16; ++seed) {
     Throw t(4, seed);
-    const auto way = search_formation(t.problem, {});
+    const auto way = FormationSearch(t.problem).find({});
     if (!way) continue;
     for (const double time : {1.6, 2.5, 4.0}) {
       t.problem.meetings[0].time = time;
@@ -107,7 +107,7 @@ TEST(Formation, AWallWithoutAGapHasNoWay) {
   t.problem.map = t.problem.tall = &map;
   t.problem.meetings.clear();
   t.problem.goal = FormationGoal{{x + 3.0, t.problem.start.y}, 0.35, {}};
-  EXPECT_FALSE(search_formation(t.problem, {.max_expansions = 3000, .field = true}).has_value());
+  EXPECT_FALSE(FormationSearch(t.problem).find({.max_expansions = 3000, .field = true}).has_value());
 }
 
 TEST(NarrowShapes, KeepTheNetSafeAndTheCarsApart) {

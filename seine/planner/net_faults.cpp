@@ -1,0 +1,42 @@
+#include "seine/planner/net_faults.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace seine::planner {
+namespace {
+
+using certify::Kind;
+
+constexpr double kDistance = 0.1, kShare = 0.5, kSpeed = 0.1, kOpening = 0.05, kReserve = 1.0;
+
+double severity_of(const certify::Violation& v) {
+  const double missed = std::abs(v.value - v.limit);
+  switch (v.kind) {
+    case Kind::speed:
+    case Kind::reverse_speed:
+    case Kind::acceleration:
+    case Kind::lateral_acceleration:
+    case Kind::curvature:
+    case Kind::steering_rate:
+      return missed / (kShare * v.limit);
+    case Kind::gear:
+      return missed / kSpeed;
+    case Kind::net_opening:
+      return missed / kOpening;
+    case Kind::net_holding:
+      return missed / kReserve;
+    default:
+      return missed / kDistance;
+  }
+}
+
+}  // namespace
+
+double severity(const certify::Certificate& certificate) {
+  double worst = 0.0;
+  for (const certify::Violation& v : certificate.violations) worst = std::max(worst, severity_of(v));
+  return worst;
+}
+
+}  // namespace seine::planner

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "seine/search/cost_to_go.hpp"
+#include "seine/search/formation.hpp"
+#include "seine/search/point_distances.hpp"
+
+namespace seine::search {
+
+/// Where a formation can stand, and how far its net is from where it must go. What it learns about the ground
+/// serves every search of the same task. Not thread-safe; internal to the room.
+class FormationGround {
+ public:
+  explicit FormationGround(const FormationProblem& problem);
+
+  /// Every footprint and the net clear of everything they must keep clear of, with a little slack.
+  bool clear(const geom::Pose2& frame, const Formation& formation);
+  /// Of the attachments.
+  geom::Vec2 middle(const geom::Pose2& frame, const Formation& formation);
+
+  /// From now on `to` knows ways around what is tall, for a disc that fits into every one of these.
+  void find_ways(std::span<const Formation> shapes);
+  /// m from a point to a rendezvous, or, numbered after them, to the goal. @param field around what is tall
+  /// (needs find_ways); otherwise as the crow flies
+  double to(std::size_t place, geom::Vec2 point, bool field);
+
+  double car_length() const { return length_; }
+
+ private:
+  bool clear_below(const Formation& formation) const;
+
+  const FormationProblem& p_;
+  double length_;  // m, of the longest car
+  struct Disc {
+    double ahead, outer, inner;  // m: of the centre along the heading; around, and inside the footprint
+  };
+  std::vector<Disc> discs_;
+  PointDistances cars_;  // from what the cars keep clear of
+  std::unique_ptr<PointDistances> tall_;
+  std::vector<std::unique_ptr<CostToGo>> fields_;  // to each rendezvous, then to the goal
+  std::vector<geom::Vec2> polygon_, attachments_;  // room
+};
+
+}  // namespace seine::search
