@@ -19,7 +19,7 @@ namespace seine::search {
 struct Formation {
   std::vector<geom::Vec2> offsets;  ///< of each car's rear axle from the frame, world axes, m
   double lowest = 0.0;              ///< m above the ground: what hangs lowest in this shape
-  std::optional<double> along;      ///< rad: a shape for driving through narrow places in this direction
+  std::optional<geom::Vec2> along;  ///< unit: a shape for driving through narrow places in this direction
 };
 
 /// Something low enough for the net to pass over when it hangs high enough.

@@ -14,6 +14,10 @@ using geom::Vec2;
 constexpr double kCarSlack = 0.05, kNetSlack = 0.05;  // on top of the margins
 constexpr double kCell = 0.15, kFar = 2.0;            // of the distances for cars
 
+Vec2 turned(Vec2 v, Vec2 by) {
+  return {by.x * v.x - by.y * v.y, by.y * v.x + by.x * v.y};
+}
+
 double longest_car(const world::Scenario& scenario) {
   double length = 0.0;
   for (const world::Robot& robot : scenario.robots)
@@ -39,29 +43,36 @@ FormationGround::FormationGround(const FormationProblem& problem)
   }
 }
 
-Vec2 FormationGround::middle(const Pose2& frame, const Formation& formation) {
-  attachments_at(*p_.scenario, formation, frame, attachments_);
+// Fills attachments_.
+void FormationGround::hold(const Stand& frame, const Formation& formation) {
+  attachments_.resize(formation.offsets.size());
+  for (std::size_t k = 0; k < attachments_.size(); ++k)
+    attachments_[k] =
+        frame.at + formation.offsets[k] + turned(p_.scenario->net->attachments[k].at, frame.forward);
+}
+
+Vec2 FormationGround::middle(const Stand& frame, const Formation& formation) {
+  hold(frame, formation);
   Vec2 sum;
   for (const Vec2 a : attachments_) sum += a;
   return sum / static_cast<double>(attachments_.size());
 }
 
-bool FormationGround::clear(const Pose2& frame, const Formation& formation) {
+bool FormationGround::clear(const Stand& frame, const Formation& formation) {
   const double clearance = p_.scenario->margins.obstacle + kCarSlack * length_;
-  const Vec2 forward = frame.direction();
   for (std::size_t k = 0; k < p_.scenario->robots.size(); ++k) {
-    const vehicle::Model& model = p_.scenario->model_of(p_.scenario->robots[k]);
-    const Vec2 at = frame.position() + formation.offsets[k];
+    const Vec2 at = frame.at + formation.offsets[k];
     // Most poses are far from everything, or plainly in it.
     const Disc& disc = discs_[k];
-    const auto room = cars_.bounds(at + disc.ahead * forward);
+    const auto room = cars_.bounds(at + disc.ahead * frame.forward);
     if (room.lower >= disc.outer + clearance) continue;
     if (room.upper < disc.inner + clearance) return false;
-    polygon_.resize(model.footprint.size());
-    geom::place(model.footprint, {at.x, at.y, frame.heading}, polygon_);
+    polygon_.clear();
+    for (const Vec2 corner : p_.scenario->model_of(p_.scenario->robots[k]).footprint)
+      polygon_.push_back(at + turned(corner, frame.forward));
     if (!p_.map->clear(polygon_, clearance)) return false;
   }
-  attachments_at(*p_.scenario, formation, frame, attachments_);
+  hold(frame, formation);
   return p_.tall->clear(attachments_, kNetSlack * length_) && clear_below(formation);
 }
 
@@ -80,7 +91,7 @@ bool FormationGround::clear_below(const Formation& formation) const {
 void FormationGround::find_ways(std::span<const Formation> shapes) {
   double radius = std::numeric_limits<double>::infinity();
   for (const Formation& shape : shapes) {
-    const Vec2 center = middle(p_.start, shape);
+    const Vec2 center = middle(stand_at(p_.start), shape);
     for (std::size_t i = 0; i < attachments_.size(); ++i) {
       const Vec2 a = attachments_[i], e = attachments_[(i + 1) % attachments_.size()] - a;
       radius = std::min(radius, geom::cross(e, center - a) / geom::norm(e));

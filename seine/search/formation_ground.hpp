@@ -9,6 +9,22 @@
 
 namespace seine::search {
 
+/// Where a formation's frame stands; its heading as a direction as well, for sines are dear.
+struct Stand {
+  geom::Vec2 at, forward;
+  double heading = 0.0;
+};
+inline Stand stand_at(const geom::Pose2& pose) {
+  return {pose.position(), pose.direction(), pose.heading};
+}
+/// `step`, given from `from`.
+inline Stand stand_after(const Stand& from, const Stand& step) {
+  const geom::Vec2 f = from.forward;
+  return {from.at + geom::Vec2{f.x * step.at.x - f.y * step.at.y, f.y * step.at.x + f.x * step.at.y},
+          {f.x * step.forward.x - f.y * step.forward.y, f.y * step.forward.x + f.x * step.forward.y},
+          from.heading + step.heading};
+}
+
 /// Where a formation can stand, and how far its net is from where it must go. What it learns about the ground
 /// serves every search of the same task. Not thread-safe; internal to the room.
 class FormationGround {
@@ -16,9 +32,9 @@ class FormationGround {
   explicit FormationGround(const FormationProblem& problem);
 
   /// Every footprint and the net clear of everything they must keep clear of, with a little slack.
-  bool clear(const geom::Pose2& frame, const Formation& formation);
+  bool clear(const Stand& frame, const Formation& formation);
   /// Of the attachments.
-  geom::Vec2 middle(const geom::Pose2& frame, const Formation& formation);
+  geom::Vec2 middle(const Stand& frame, const Formation& formation);
 
   /// From now on `to` knows ways around what is tall, for a disc that fits into every one of these.
   void find_ways(std::span<const Formation> shapes);
@@ -29,6 +45,7 @@ class FormationGround {
   double car_length() const { return length_; }
 
  private:
+  void hold(const Stand& frame, const Formation& formation);
   bool clear_below(const Formation& formation) const;
 
   const FormationProblem& p_;
@@ -40,7 +57,7 @@ class FormationGround {
   PointDistances cars_;  // from what the cars keep clear of
   std::unique_ptr<PointDistances> tall_;
   std::vector<std::unique_ptr<CostToGo>> fields_;  // to each rendezvous, then to the goal
-  std::vector<geom::Vec2> polygon_, attachments_;  // room
+  std::vector<geom::Vec2> polygon_, attachments_;
 };
 
 }  // namespace seine::search

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <unordered_map>
@@ -17,6 +18,7 @@ using vehicle::Arc;
 constexpr double kStep = 0.8;
 constexpr int kChecks = 5;  // poses looked at in a step
 constexpr double kCell = 0.5;
+constexpr double kSlice = 0.01;  // of a car length at top speed: estimates this near are alike
 constexpr int kHeadings = 32;
 constexpr double kForwardTurns[] = {0.0, 0.22, -0.22, 0.5, -0.5, 0.88, -0.88};  // of κ_max
 constexpr double kBackwardTurns[] = {0.0, 0.5, -0.5, 0.88, -0.88};
@@ -26,7 +28,7 @@ constexpr double kShapePrice = 0.3;                        // of v / a, s
 constexpr double kAcross = 0.6;  // sine of the angle to its direction at which a narrow shape is of use
 constexpr double kLateralShare = 0.8;
 constexpr double kLeastChange = 0.5;  // of the length that a change of shape is given
-constexpr double kStopShare = 0.6;  // of the acceleration limit, to stop after the last rendezvous
+constexpr double kStopShare = 0.6;    // of the acceleration limit, to stop after the last rendezvous
 
 struct Limits {
   double speed, reverse_speed, acceleration, lateral, curvature, length;
@@ -48,18 +50,65 @@ Limits limits_of(const world::Scenario& scenario) {
   return all;
 }
 
+// A step of the lattice: where it leads, from where it begins, and how long it takes at best.
+struct Move {
+  Arc arc;
+  double time;
+  std::array<Stand, kChecks> way;
+};
+
 struct Node {
-  Pose2 pose;
-  Arc arc;  // that led here
+  Stand stand;
+  const Move* move;  // that led here
   double cost, estimate;
   double after;       // m driven since the last rendezvous was passed
   double s;           // m driven
   double held_since;  // m driven when the shape was complete
   double change;      // m over which it changed to that
-  int parent;    // −1 at the root
-  int phase;     // rendezvous passed
-  int shape;     // held on the way here
-  bool checked = false, closed = false;
+  int parent;         // −1 at the root
+  int phase;          // rendezvous passed
+  int shape;          // held on the way here
+  bool closed = false;
+};
+
+// What waits for its turn: a node, or a step from one that nobody has looked at yet.
+struct Entry {
+  double estimate;
+  int node;                  // the step's parent where there is one
+  std::int16_t move, shape;  // of the step; −1 for a node
+};
+
+// Lowest estimate first, in slices of a few milliseconds; in a slice whoever came last, for it is furthest
+// on.
+class Waiting {
+ public:
+  explicit Waiting(double slice) : slice_(slice) {}
+
+  void push(const Entry& entry) {
+    const auto at = static_cast<std::size_t>(entry.estimate / slice_);
+    if (at >= slices_.size()) slices_.resize(at + 1);
+    slices_[at].push_back(entry);
+    lowest_ = std::min(lowest_, at);
+  }
+  bool empty() {
+    while (lowest_ < slices_.size() && slices_[lowest_].empty()) ++lowest_;
+    return lowest_ >= slices_.size();
+  }
+  /// Needs !empty().
+  Entry pop() {
+    const Entry entry = slices_[lowest_].back();
+    slices_[lowest_].pop_back();
+    return entry;
+  }
+  /// Whether somebody's turn comes before that of an estimate.
+  bool any_before(double estimate) {
+    return !empty() && lowest_ < static_cast<std::size_t>(estimate / slice_);
+  }
+
+ private:
+  double slice_;
+  std::vector<std::vector<Entry>> slices_;
+  std::size_t lowest_ = 0;
 };
 
 class Lattice {
@@ -71,9 +120,10 @@ class Lattice {
         scenario_(*problem.scenario),
         limits_(limits_of(scenario_)),
         step_(kStep * limits_.length),
-        cell_(kCell * limits_.length) {
+        cell_(kCell * limits_.length),
+        open_(kSlice * limits_.length / limits_.speed) {
     const auto fan = [&](std::span<const double> turns, double distance) {
-      for (const double turn : turns) moves_.push_back({turn * limits_.curvature, distance});
+      for (const double turn : turns) moves_.push_back(move_of({turn * limits_.curvature, distance}));
     };
     if (s_.forward) fan(kForwardTurns, step_);
     if (s_.backward && limits_.reverse_speed > 0.0) fan(kBackwardTurns, -step_);
@@ -83,33 +133,23 @@ class Lattice {
   std::optional<FormationPath> run();
 
  private:
-  struct Entry {
-    double estimate;
-    int node;
-    friend bool operator<(const Entry& a, const Entry& b) {
-      return a.estimate != b.estimate ? a.estimate > b.estimate : a.node > b.node;
-    }
-  };
-
   int meetings() const { return static_cast<int>(p_.meetings.size()); }
-  Vec2 middle(const Pose2& pose, int held) { return ground_.middle(pose, shape(held)); }
+  Vec2 middle(const Stand& stand, int held) { return ground_.middle(stand, shape(held)); }
   const Formation& shape(int index) const { return p_.shapes[static_cast<std::size_t>(index)]; }
   void legs_ahead();
   double ahead(const Node& node);
-  double time_of(const Arc& arc, const Arc* before) const;
+  Move move_of(const Arc& arc) const;
+  double cost_of(const Node& parent, const Move& move, int shape) const;
   bool begin_change(Node& node) const;
   bool change_clear(const Node& node);
-  void offer_shapes(int index);
-  bool check(int index);
+  void offer_shapes(const Entry& step, Vec2 forward);
+  std::optional<Node> check(const Entry& step);
+  bool keep(const Node& node);
   void expand(int index);
   bool drive_to(Node& node);
   bool at_goal(const Node& node);
-  void add(int parent, const Arc& move, int shape);
+  void offer(int parent, int move, int shape);
   std::uint64_t bin(const Node& node) const;
-  void push(int index) {
-    open_.push_back({node(index).estimate, index});
-    std::push_heap(open_.begin(), open_.end());
-  }
   Node& node(int index) { return nodes_[static_cast<std::size_t>(index)]; }
   FormationPath path_to(int index);
 
@@ -119,11 +159,11 @@ class Lattice {
   const world::Scenario& scenario_;
   Limits limits_;
   double step_, cell_;
-  std::vector<Arc> moves_;
+  std::vector<Move> moves_;
   std::vector<double> beyond_;  // per phase: m from the next place to the end of the way, at least
-  Formation between_;  // room
+  Formation between_;           // room
   std::vector<Node> nodes_;
-  std::vector<Entry> open_;
+  Waiting open_;
   std::unordered_map<std::uint64_t, int> bins_;
 };
 
@@ -144,31 +184,37 @@ double Lattice::ahead(const Node& here) {
   const auto i = static_cast<std::size_t>(here.phase);
   if (here.phase == meetings() && !p_.goal) return 0.0;
   const double reach = here.phase == meetings() ? p_.goal->radius : p_.meetings[i].reach;
-  return (std::max(0.0, ground_.to(i, middle(here.pose, here.shape), s_.field) - reach) + beyond_[i]) / limits_.speed;
+  return (std::max(0.0, ground_.to(i, middle(here.stand, here.shape), s_.field) - reach) + beyond_[i]) /
+         limits_.speed;
 }
 
-double Lattice::time_of(const Arc& arc, const Arc* before) const {
+Move Lattice::move_of(const Arc& arc) const {
   const double top = arc.distance > 0.0 ? limits_.speed : limits_.reverse_speed;
   const double bend = std::abs(arc.curvature);
   const double speed = bend > 0.0 ? std::min(top, std::sqrt(kLateralShare * limits_.lateral / bend)) : top;
+  Move move{arc, std::abs(arc.distance) / speed * (bend > 0.0 ? 1.0 + kCurvedPrice : 1.0), {}};
+  for (int i = 0; i < kChecks; ++i)
+    move.way[static_cast<std::size_t>(i)] =
+        stand_at(vehicle::drive(Pose2{}, arc.curvature, arc.distance * (i + 1) / kChecks));
+  return move;
+}
+
+double Lattice::cost_of(const Node& parent, const Move& move, int shape_held) const {
   const double unit = limits_.speed / limits_.acceleration;
-  double time = std::abs(arc.distance) / speed * (bend > 0.0 ? 1.0 + kCurvedPrice : 1.0);
-  if (before == nullptr) return time;
-  if (before->gear() != arc.gear())
-    time += kGearPrice * unit;
-  else if (before->curvature != arc.curvature)
-    time += kSteeringPrice * unit;
-  return time;
+  double cost = parent.cost + move.time;
+  if (shape_held != parent.shape) cost += kShapePrice * unit;
+  if (parent.parent < 0) return cost;
+  if (parent.move->arc.gear() != move.arc.gear()) return cost + kGearPrice * unit;
+  return parent.move->arc.curvature == move.arc.curvature ? cost : cost + kSteeringPrice * unit;
 }
 
 // A shape is complete at the end of the step on which a node takes it on, and the change begins before: not
 // while the shape before is being taken on, nor while a catch wants the net as it was.
 bool Lattice::begin_change(Node& here) const {
   const Node& from = nodes_[static_cast<std::size_t>(here.parent)];
-  const double step = std::abs(here.arc.distance);
-  here.held_since = from.s + step;
+  here.held_since = from.s + step_;
   here.change = std::min(p_.change, here.held_since - from.held_since);
-  if (here.phase > 0) here.change = std::min(here.change, from.after + step - p_.hold);
+  if (here.phase > 0) here.change = std::min(here.change, from.after + step_ - p_.hold);
   return here.change >= kLeastChange * p_.change;
 }
 
@@ -178,11 +224,11 @@ bool Lattice::change_clear(const Node& here) {
   const double begin = here.held_since - here.change;
   for (const Node* at = &here; at->parent >= 0 && at->s > begin; at = &node(at->parent)) {
     const Node& from = node(at->parent);
-    for (int i = kChecks; i > 0; --i) {
-      const double distance = at->arc.distance * i / kChecks, s = from.s + std::abs(distance);
+    for (std::size_t i = kChecks; i-- > 0;) {
+      const double s = from.s + step_ * static_cast<double>(i + 1) / kChecks;
       if (s <= begin) break;
       between(old, now, (s - begin) / here.change, between_);
-      if (!ground_.clear(vehicle::drive(from.pose, at->arc.curvature, distance), between_)) return false;
+      if (!ground_.clear(stand_after(from.stand, at->move->way[i]), between_)) return false;
     }
   }
   return true;
@@ -191,19 +237,17 @@ bool Lattice::change_clear(const Node& here) {
 // Drives a node's last step pose by pose: clear all the way, and past which rendezvous?
 bool Lattice::drive_to(Node& here) {
   const Node& from = node(here.parent);
-  const double step = std::abs(here.arc.distance);
-  here.s = from.s + step;
-  here.after = from.after + step;
+  here.s = from.s + step_;
+  here.after = from.after + step_;
   if (here.shape != from.shape) return begin_change(here) && change_clear(here);
-  for (int i = 1; i <= kChecks; ++i) {
-    const double distance = here.arc.distance * i / kChecks;
-    const Pose2 pose = vehicle::drive(from.pose, here.arc.curvature, distance);
-    if (!ground_.clear(pose, shape(here.shape))) return false;
+  for (std::size_t i = 0; i < kChecks; ++i) {
+    const Stand stand = stand_after(from.stand, here.move->way[i]);
+    if (!ground_.clear(stand, shape(here.shape))) return false;
     while (here.phase < meetings() && here.shape == 0) {
       const Rendezvous& meeting = p_.meetings[static_cast<std::size_t>(here.phase)];
-      if (geom::norm(middle(pose, 0) - meeting.point) > meeting.reach) break;
+      if (geom::norm(middle(stand, 0) - meeting.point) > meeting.reach) break;
       ++here.phase;
-      here.after = step - std::abs(distance);
+      here.after = step_ * static_cast<double>(kChecks - 1 - i) / kChecks;
     }
   }
   return true;
@@ -211,13 +255,12 @@ bool Lattice::drive_to(Node& here) {
 
 // Where the way is blocked in one shape it may be clear in another: the first one wherever it fits again, and
 // those that are narrow across the way.
-void Lattice::offer_shapes(int index) {
-  const Node here = node(index);
+void Lattice::offer_shapes(const Entry& step, Vec2 forward) {
   for (int k = 0; k < static_cast<int>(p_.shapes.size()); ++k) {
-    if (k == here.shape) continue;
-    const std::optional<double>& along = shape(k).along;
-    if (along && std::abs(std::sin(*along - here.pose.heading)) > kAcross) continue;
-    add(here.parent, here.arc, k);
+    if (k == step.shape) continue;
+    const std::optional<Vec2>& along = shape(k).along;
+    if (along && std::abs(geom::cross(*along, forward)) > kAcross) continue;
+    offer(step.node, step.move, k);
   }
 }
 
@@ -227,9 +270,9 @@ bool Lattice::at_goal(const Node& here) {
     const double stop = limits_.speed * limits_.speed / (2.0 * kStopShare * limits_.acceleration);
     return here.after >= stop;
   }
-  if (geom::norm(middle(here.pose, here.shape) - p_.goal->center) > p_.goal->radius) return false;
+  if (geom::norm(middle(here.stand, here.shape) - p_.goal->center) > p_.goal->radius) return false;
   return !p_.goal->heading ||
-         std::abs(geom::wrap_angle(here.pose.heading - *p_.goal->heading)) <= p_.goal->heading_tolerance;
+         std::abs(geom::wrap_angle(here.stand.heading - *p_.goal->heading)) <= p_.goal->heading_tolerance;
 }
 
 std::uint64_t Lattice::bin(const Node& n) const {
@@ -237,105 +280,93 @@ std::uint64_t Lattice::bin(const Node& n) const {
     return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(value)) + (1 << 20));
   };
   const double slice = 2.0 * std::numbers::pi / kHeadings;
-  const auto heading = static_cast<std::int64_t>(std::floor(n.pose.heading / slice + 0.5));
+  const auto heading = static_cast<std::int64_t>(std::floor(n.stand.heading / slice + 0.5));
   const std::int64_t turn = (heading % kHeadings + kHeadings) % kHeadings;
   // Which narrow shape leads to a pose matters little; told apart, they would only be searched many times.
   // Without a goal the way goes on after the last rendezvous until the team can stop.
   const bool stopping = n.phase == meetings() && !p_.goal;
   const auto phase = static_cast<std::uint64_t>(n.phase + (stopping ? static_cast<int>(n.after / step_) : 0));
-  return (index((n.pose.x - p_.start.x) / cell_ + 0.5) << 42) |
-         (index((n.pose.y - p_.start.y) / cell_ + 0.5) << 20) | phase << 8 |
-         static_cast<std::uint64_t>(2 * turn + (n.arc.gear() < 0 ? 1 : 0)) |
+  return (index((n.stand.at.x - p_.start.x) / cell_ + 0.5) << 42) |
+         (index((n.stand.at.y - p_.start.y) / cell_ + 0.5) << 20) | phase << 8 |
+         static_cast<std::uint64_t>(2 * turn + (n.move != nullptr && n.move->arc.gear() < 0 ? 1 : 0)) |
          (n.shape == 0 ? 0 : std::uint64_t{1} << 14);
 }
 
-void Lattice::add(int index, const Arc& move, int shape_held) {
+// A step costs what it costs; what is left after it is not known yet, but no less than this.
+void Lattice::offer(int index, int move, int shape_held) {
   const Node& parent = node(index);
-  Node child{.pose = vehicle::drive(parent.pose, move),
-             .arc = move,
-             .cost = 0.0,
-             .estimate = 0.0,
-             .after = parent.after,
-             .s = parent.s,
-             .held_since = parent.held_since,
-             .change = 0.0,
-             .parent = index,
-             .phase = parent.phase,
-             .shape = shape_held};
-  child.cost = parent.cost + time_of(move, parent.parent < 0 ? nullptr : &parent.arc);
-  if (shape_held != parent.shape) child.cost += kShapePrice * limits_.speed / limits_.acceleration;
-  const double left = std::max(
-      0.0, parent.estimate - parent.cost - s_.heuristic_weight * std::abs(move.distance) / limits_.speed);
-  child.estimate = child.cost + left;
-  nodes_.push_back(child);
-  push(static_cast<int>(nodes_.size()) - 1);
+  const double left = parent.estimate - parent.cost - s_.heuristic_weight * step_ / limits_.speed;
+  const double cost = cost_of(parent, moves_[static_cast<std::size_t>(move)], shape_held);
+  open_.push({cost + std::max(0.0, left), index, static_cast<std::int16_t>(move),
+              static_cast<std::int16_t>(shape_held)});
 }
 
-// Whether a node that came to the front for the first time can be reached and is the cheapest in its bin;
-// then its estimate becomes a good one.
-bool Lattice::check(int index) {
-  Node& here = node(index);
+// Where a step leads, if it can be driven and nothing as cheap has been there.
+std::optional<Node> Lattice::check(const Entry& step) {
+  const Node& parent = node(step.node);
+  Node here = parent;
+  here.move = &moves_[static_cast<std::size_t>(step.move)];
+  here.stand = stand_after(parent.stand, here.move->way.back());
+  here.cost = cost_of(parent, *here.move, step.shape);
+  here.parent = step.node, here.shape = step.shape;
+  here.closed = false;
   const auto known = bins_.find(bin(here));
-  if (known != bins_.end() && node(known->second).cost <= here.cost) return false;
+  if (known != bins_.end() && node(known->second).cost <= here.cost) return std::nullopt;
   if (!drive_to(here)) {
-    if (here.shape == node(here.parent).shape) offer_shapes(index);
-    return false;
+    if (here.shape == parent.shape) offer_shapes(step, here.stand.forward);
+    return std::nullopt;
   }
+  here.stand = stand_at({here.stand.at.x, here.stand.at.y, geom::wrap_angle(here.stand.heading)});
+  here.estimate = here.cost + s_.heuristic_weight * ahead(here);
+  return here;
+}
+
+// The cheapest in its bin?
+bool Lattice::keep(const Node& here) {
+  const auto index = static_cast<int>(nodes_.size());
   const auto [in_bin, fresh] = bins_.try_emplace(bin(here), index);
   if (!fresh) {
     if (node(in_bin->second).cost <= here.cost) return false;
     node(in_bin->second).closed = true;
     in_bin->second = index;
   }
-  here.checked = true;
-  here.estimate = here.cost + s_.heuristic_weight * ahead(here);
+  nodes_.push_back(here);
   return std::isfinite(here.estimate);
 }
 
 void Lattice::expand(int index) {
   const int held = node(index).shape;
   const bool back = held != 0 && node(index).phase < meetings();  // a rendezvous wants the first shape
-  for (const Arc& move : moves_) {
-    add(index, move, held);
-    if (back) add(index, move, 0);
+  for (int move = 0; move < static_cast<int>(moves_.size()); ++move) {
+    offer(index, move, held);
+    if (back) offer(index, move, 0);
   }
 }
 
 std::optional<FormationPath> Lattice::run() {
-  Node root{.pose = p_.start,
-            .arc = {},
-            .cost = 0.0,
-            .estimate = 0.0,
-            .after = 0.0,
-            .s = 0.0,
-            .held_since = 0.0,
-            .change = 0.0,
-            .parent = -1,
-            .phase = 0,
-            .shape = 0};
-  root.checked = true;
+  Node root{};
+  root.stand = stand_at(p_.start);
+  root.parent = -1;
   root.estimate = s_.heuristic_weight * ahead(root);
   if (!std::isfinite(root.estimate)) return std::nullopt;
   nodes_.push_back(root);
-  push(0);
+  open_.push({root.estimate, 0, -1, -1});
   for (int expansions = 0; !open_.empty() && expansions < s_.max_expansions;) {
-    const Entry entry = open_.front();
-    std::pop_heap(open_.begin(), open_.end());
-    open_.pop_back();
-    if (node(entry.node).closed || node(entry.node).estimate != entry.estimate) continue;
-    if (!node(entry.node).checked) {
-      if (!check(entry.node)) {
-        node(entry.node).closed = true;
-        continue;
-      }
+    Entry entry = open_.pop();
+    if (entry.move >= 0) {
+      const auto found = check(entry);
+      if (!found || !keep(*found)) continue;
+      entry = {found->estimate, static_cast<int>(nodes_.size()) - 1, -1, -1};
       // Whoever learns that it is further off than it looked waits for its turn.
-      if (!open_.empty() && node(entry.node).estimate > open_.front().estimate) {
-        push(entry.node);
+      if (open_.any_before(entry.estimate)) {
+        open_.push(entry);
         continue;
       }
     }
-    if (at_goal(node(entry.node))) return path_to(entry.node);
-    node(entry.node).closed = true;
+    Node& here = node(entry.node);
+    if (here.closed) continue;
+    if (at_goal(here)) return path_to(entry.node);
+    here.closed = true;
     if (++expansions % 64 == 0 && p_.deadline.expired()) break;
     expand(entry.node);
   }
@@ -349,15 +380,16 @@ FormationPath Lattice::path_to(int index) {
   for (int at = index; at >= 0; at = node(at).parent) way.push_back(at);
   std::reverse(way.begin(), way.end());
   auto& points = result.path.points;
-  const Arc* first = way.size() > 1 ? &node(way[1]).arc : nullptr;
+  const Arc* first = way.size() > 1 ? &node(way[1]).move->arc : nullptr;
   points.push_back(
       {0.0, p_.start, first != nullptr ? first->curvature : 0.0, first != nullptr ? first->gear() : 1});
   double s = 0.0;
   int phase = 0;
   result.shapes.push_back({0.0, 0.0, 0});
   for (std::size_t i = 1; i < way.size(); ++i) {
-    const Arc& arc = node(way[i]).arc;
-    const Pose2 from = node(way[i - 1]).pose;
+    const Arc& arc = node(way[i]).move->arc;
+    const Stand& stand = node(way[i - 1]).stand;
+    const Pose2 from{stand.at.x, stand.at.y, stand.heading};
     if (points.back().gear != arc.gear()) points.push_back({s, from, arc.curvature, arc.gear()});
     points.back().curvature = arc.curvature;
     const int held = node(way[i]).shape;
@@ -371,7 +403,7 @@ FormationPath Lattice::path_to(int index) {
       const Pose2 pose = vehicle::drive(from, arc.curvature, distance);
       points.push_back({s + std::abs(distance), pose, arc.curvature, arc.gear()});
       while (phase < meetings() && held == 0 && !changes &&
-             geom::norm(middle(pose, 0) - p_.meetings[static_cast<std::size_t>(phase)].point) <=
+             geom::norm(middle(stand_at(pose), 0) - p_.meetings[static_cast<std::size_t>(phase)].point) <=
                  p_.meetings[static_cast<std::size_t>(phase)].reach) {
         result.meeting_s.push_back(s + std::abs(distance));
         ++phase;

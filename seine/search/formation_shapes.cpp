@@ -120,7 +120,7 @@ class Shapes {
 
   Shape shape_of(std::span<const Vec2> ring, double along) const {
     Shape shape{};
-    shape.formation.along = along;
+    shape.formation.along = geom::unit(along);
     shape.formation.lowest = net_.rim() - depth_of(ring);
     const Vec2 across = geom::left_normal(geom::unit(along));
     double low = 0.0, high = 0.0;
