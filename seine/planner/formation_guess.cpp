@@ -14,7 +14,7 @@ using search::Formation;
 
 constexpr double kGoalShare = 0.7;       // of the delivery's radius
 constexpr double kChangeLength = 5.0;    // car lengths over which the formation changes shape
-constexpr int kQuickExpansions = 1500;   // as the crow flies, as at the start
+constexpr int kQuickExpansions = 800;    // as the crow flies, as at the start
 constexpr int kShapeExpansions = 12000;  // around what is tall, in shapes for narrow places too
 constexpr double kGreedy = 2.5;          // weight of what is left, for a way soon instead of a fast one
 constexpr double kHoldPace = 0.8;        // of the top speed: how far a team drives while it holds a catch
