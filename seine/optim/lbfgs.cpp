@@ -122,6 +122,7 @@ class Minimizer {
         summary_.status = LbfgsStatus::no_step;
         break;
       }
+      if (options_.changed && options_.changed(summary_.iterations)) start_over();
       if (finished()) break;
     }
     summary_.cost = cost_;
@@ -132,6 +133,13 @@ class Minimizer {
   double evaluate(std::span<const double> x, std::span<double> gradient) {
     ++summary_.evaluations;
     return objective_(x, gradient);
+  }
+
+  // The objective is another one from here on; what was learnt of its curvature still serves.
+  void start_over() {
+    const double before = cost_;
+    cost_ = evaluate(x_, gradient_);
+    for (double& cost : history_) cost += cost_ - before;
   }
 
   bool iterate() {

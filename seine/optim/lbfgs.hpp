@@ -23,6 +23,8 @@ struct LbfgsOptions {
   /// own inverse Hessian, so weakly coupled groups converge as fast as each would alone. All share one step
   /// length.
   std::vector<int> blocks;
+  /// Called after every iteration; true when f has become another function.
+  std::function<bool(int iteration)> changed;
   /// Called after every iteration; stops when it returns true.
   std::function<bool(int iteration, double cost)> stop;
 };

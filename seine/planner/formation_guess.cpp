@@ -12,12 +12,13 @@ namespace {
 using geom::Vec2;
 using search::Formation;
 
-constexpr double kGoalShare = 0.7;       // of the delivery's radius
-constexpr double kChangeLength = 5.0;    // car lengths over which the formation changes shape
-constexpr int kQuickExpansions = 800;    // as the crow flies, as at the start
-constexpr int kShapeExpansions = 12000;  // around what is tall, in shapes for narrow places too
-constexpr double kGreedy = 2.5;          // weight of what is left, for a way soon instead of a fast one
-constexpr double kHoldPace = 0.8;        // of the top speed: how far a team drives while it holds a catch
+constexpr double kGoalShare = 0.7;      // of the delivery's radius
+constexpr double kChangeLength = 5.0;   // car lengths over which the formation changes shape
+constexpr int kQuickExpansions = 500;   // as the crow flies, as at the start
+constexpr int kShapeExpansions = 6000;  // around what is tall, in shapes for narrow places too
+constexpr int kMostExpansions = 24000;  // the same, when that was not enough
+constexpr double kGreedy = 2.5;         // weight of what is left, for a way soon instead of a fast one
+constexpr double kHoldPace = 0.8;       // of the top speed: how far a team drives while it holds a catch
 
 // Where every robot has a goal of its own the formation ends as they stand there.
 struct End {
@@ -109,14 +110,23 @@ FormationGuess FormationGuesser::assemble(search::FormationPath way) const {
 std::optional<FormationGuess> FormationGuesser::guess(int attempt) {
   search::FormationSettings settings{.max_expansions = kQuickExpansions};
   if (attempt > 0) {
+    // Where a greedy search finds no way a thorough one hardly ever does.
+    const bool thorough = attempt % 2 == 0;
+    if (thorough && !found_[static_cast<std::size_t>(attempt - 1)]) return std::nullopt;
     if (!narrow_) offer_narrow_shapes();
     settings = {.max_expansions = kShapeExpansions, .field = true};
-    if (attempt % 2 == 1) settings.heuristic_weight = kGreedy;
-    // The optimiser holds the net open longer than the guess did, if it has to.
-    if (attempt >= 3) search_.set_hold(0.0);
+    if (!thorough) settings.heuristic_weight = kGreedy;
+  }
+  if (attempt >= 3) {
+    // The optimiser holds the net open longer than the guess did, if it has to. Where there is no catch the
+    // way would be the one that was found before.
+    if (question_.meetings.empty() && found_[static_cast<std::size_t>(attempt - 2)]) return std::nullopt;
+    search_.set_hold(0.0);
+    settings.max_expansions = kMostExpansions;
   }
   auto way = search_.find(settings);
   if (!way) return std::nullopt;
+  found_[static_cast<std::size_t>(attempt)] = true;
   return assemble(std::move(*way));
 }
 

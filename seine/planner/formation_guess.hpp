@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 
@@ -30,6 +31,7 @@ class FormationGuesser {
   std::optional<search::Formation> last_;  // in which the team ends where every robot has a goal
   search::FormationSearch search_;
   bool narrow_ = false;
+  std::array<bool, kAttempts> found_{};  // whether an attempt found a way
 };
 
 }  // namespace seine::planner

@@ -26,7 +26,8 @@ constexpr double kDepthSlack = 0.008, kSpeedSlack = 0.1;
 constexpr double kHoldingReserve = 0.3, kReserveShare = 0.7;
 // Sideways speed asked for on top of what the guess expects, m/s.
 constexpr double kSidewaysRoom = 0.6;
-constexpr double kCruise = 0.9;  // of the top speed: what the formation is expected to drive
+constexpr double kHeldReserve = 0.004;  // of the net at rest: what samples miss after a catch
+constexpr double kCruise = 0.9;         // of the top speed: what the formation is expected to drive
 
 std::string text(const char* pattern, auto... values) {
   char buffer[256];
@@ -185,7 +186,7 @@ class Asking {
     // The deepest the net may hang: what is inside there and at the rim is inside between.
     task.contact_delay = most_depth_ / down;
     task.least_opening = net::kLeastOpening;
-    task.held_opening = net::kHeldOpening, task.hold = net::kHoldTime;
+    task.held_opening = net::kHeldOpening + kHeldReserve, task.hold = net::kHoldTime;
     task.least_spread = std::sqrt(std::max(0.0, spread_ * spread_ - most_depth_ * most_depth_));
     task.most_radius = std::sqrt(std::max(0.0, spread_ * spread_ - least_depth_ * least_depth_));
     question_.task.catches.push_back(task);

@@ -15,7 +15,7 @@ namespace seine::search {
 
 /// A team that moves as one: every car copies the way of a common frame, shifted by its own offset. Same
 /// heading, same curvature, same speed for all, so the way is exactly drivable and the net keeps its shape
-/// (docs/front-end-formation.md). The frame stands at the mean of the rear axles.
+/// (docs/net-planning.md). The frame stands at the mean of the rear axles.
 struct Formation {
   std::vector<geom::Vec2> offsets;  ///< of each car's rear axle from the frame, world axes, m
   double lowest = 0.0;              ///< m above the ground: what hangs lowest in this shape

@@ -4,7 +4,7 @@
 #include <numbers>
 #include <unordered_map>
 
-#include "seine/search/formation_ground.hpp"
+#include "seine/search/formation_steps.hpp"
 #include "seine/vehicle/arc.hpp"
 
 namespace seine::search {
@@ -14,9 +14,8 @@ using geom::Pose2;
 using geom::Vec2;
 using vehicle::Arc;
 
-// Lengths in car lengths unless said otherwise; docs/front-end-formation.md has the measurements.
+// Lengths in car lengths unless said otherwise; docs/net-planning.md has the measurements.
 constexpr double kStep = 0.8;
-constexpr int kChecks = 5;  // poses looked at in a step
 constexpr double kCell = 0.5;
 constexpr double kSlice = 0.01;  // of a car length at top speed: estimates this near are alike
 constexpr int kHeadings = 32;
@@ -25,9 +24,9 @@ constexpr double kBackwardTurns[] = {0.0, 0.5, -0.5, 0.88, -0.88};
 constexpr double kCurvedPrice = 0.02;                      // share of a step's time
 constexpr double kSteeringPrice = 0.05, kGearPrice = 1.0;  // of v / a, s
 constexpr double kShapePrice = 0.3;                        // of v / a, s
-constexpr double kAcross = 0.6;  // sine of the angle to its direction at which a narrow shape is of use
+constexpr double kAcross = 0.4;  // sine of the angle to its direction at which a narrow shape is of use
 constexpr double kLateralShare = 0.8;
-constexpr double kLeastChange = 0.5;  // of the length that a change of shape is given
+constexpr double kLeastChange = 0.3;  // of the length that a change of shape is given
 constexpr double kStopShare = 0.6;    // of the acceleration limit, to stop after the last rendezvous
 
 struct Limits {
@@ -49,67 +48,6 @@ Limits limits_of(const world::Scenario& scenario) {
   }
   return all;
 }
-
-// A step of the lattice: where it leads, from where it begins, and how long it takes at best.
-struct Move {
-  Arc arc;
-  double time;
-  std::array<Stand, kChecks> way;
-};
-
-struct Node {
-  Stand stand;
-  const Move* move;  // that led here
-  double cost, estimate;
-  double after;       // m driven since the last rendezvous was passed
-  double s;           // m driven
-  double held_since;  // m driven when the shape was complete
-  double change;      // m over which it changed to that
-  int parent;         // −1 at the root
-  int phase;          // rendezvous passed
-  int shape;          // held on the way here
-  bool closed = false;
-};
-
-// What waits for its turn: a node, or a step from one that nobody has looked at yet.
-struct Entry {
-  double estimate;
-  int node;                  // the step's parent where there is one
-  std::int16_t move, shape;  // of the step; −1 for a node
-};
-
-// Lowest estimate first, in slices of a few milliseconds; in a slice whoever came last, for it is furthest
-// on.
-class Waiting {
- public:
-  explicit Waiting(double slice) : slice_(slice) {}
-
-  void push(const Entry& entry) {
-    const auto at = static_cast<std::size_t>(entry.estimate / slice_);
-    if (at >= slices_.size()) slices_.resize(at + 1);
-    slices_[at].push_back(entry);
-    lowest_ = std::min(lowest_, at);
-  }
-  bool empty() {
-    while (lowest_ < slices_.size() && slices_[lowest_].empty()) ++lowest_;
-    return lowest_ >= slices_.size();
-  }
-  /// Needs !empty().
-  Entry pop() {
-    const Entry entry = slices_[lowest_].back();
-    slices_[lowest_].pop_back();
-    return entry;
-  }
-  /// Whether somebody's turn comes before that of an estimate.
-  bool any_before(double estimate) {
-    return !empty() && lowest_ < static_cast<std::size_t>(estimate / slice_);
-  }
-
- private:
-  double slice_;
-  std::vector<std::vector<Entry>> slices_;
-  std::size_t lowest_ = 0;
-};
 
 class Lattice {
  public:

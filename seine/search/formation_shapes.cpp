@@ -98,12 +98,21 @@ class Shapes {
 
   // The cars' footprints, all with one heading.
   bool apart(std::span<const Vec2> ring) const {
-    std::vector<std::vector<Vec2>> cars;
-    for (std::size_t k = 0; k < ring.size(); ++k) cars.push_back(car_at(ring, k));
-    for (std::size_t i = 0; i < cars.size(); ++i)
-      for (std::size_t j = i + 1; j < cars.size(); ++j)
-        if (geom::distance_up_to(cars[i], cars[j], 1.0) < scenario_.margins.robot + kApart) return false;
+    const double wanted = scenario_.margins.robot + kApart;
+    for (std::size_t i = 0; i < ring.size(); ++i)
+      for (std::size_t j = i + 1; j < ring.size(); ++j) {
+        if (geom::norm(axle(ring, i) - axle(ring, j)) >= reach_of(i) + reach_of(j) + wanted) continue;
+        if (geom::distance_up_to(car_at(ring, i), car_at(ring, j), 1.0) < wanted) return false;
+      }
     return true;
+  }
+
+  // Of a car's footprint from its rear axle.
+  double reach_of(std::size_t k) const {
+    double reach = 0.0;
+    for (const Vec2 corner : scenario_.model_of(scenario_.robots[k]).footprint)
+      reach = std::max(reach, geom::norm(corner));
+    return reach;
   }
 
   Vec2 axle(std::span<const Vec2> ring, std::size_t k) const {

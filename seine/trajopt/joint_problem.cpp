@@ -83,6 +83,7 @@ void JointProblem::tie() {
       if (tied_[i] < 0) tied_[i] = variables_++;
   }
   own_x_.resize(tied_.size()), own_gradient_.resize(tied_.size());
+  shared_moments_.resize(static_cast<std::size_t>(ticks_));
 }
 
 std::vector<double> JointProblem::initial() const {
@@ -125,9 +126,8 @@ void JointProblem::refresh(std::span<const double> x) {
   workers_.run(static_cast<int>(robots_.size()), [&](int k) {
     const auto i = static_cast<std::size_t>(k);
     for (int tick = 0; tick < ticks_; tick += Proximity::kStride)
-      robots_[i].locate(tick * tick_, state(i, tick));
+      robots_[i].locate(robots_[i].moment(tick * tick_), state(i, tick));
   });
-  proximity_.rebuild(states_, kSkin, kClose);
   int net_ticks = 0;
   if (net_) {
     // Until everybody rests, and a little longer.
@@ -136,6 +136,7 @@ void JointProblem::refresh(std::span<const double> x) {
     net_ticks = std::min(ticks_, static_cast<int>(last / tick_) + 2 * kNetStride);
     net_->rebuild(states_, net_ticks, ticks_);
   }
+  proximity_.rebuild(states_, kSkin, kClose, net_ && !proximity_.has_bodies() ? net_ticks : ticks_);
   for (std::size_t k = 0; k < robots_.size(); ++k) {
     std::vector<int>& needed = needed_[k];
     needed.clear();
@@ -144,14 +145,27 @@ void JointProblem::refresh(std::span<const double> x) {
     std::ranges::set_union(needed, proximity_.ticks_of(static_cast<int>(k)), std::back_inserter(merged));
     needed = std::move(merged);
   }
+  if (!tied_.empty()) find_shared_ticks();
+}
+
+void JointProblem::find_shared_ticks() {
+  needed_by_any_.clear();
+  for (const std::vector<int>& needed : needed_) {
+    std::vector<int> merged;
+    std::ranges::set_union(needed_by_any_, needed, std::back_inserter(merged));
+    needed_by_any_ = std::move(merged);
+  }
 }
 
 void JointProblem::locate(std::size_t robot) {
-  for (const int tick : needed_[robot]) robots_[robot].locate(tick * tick_, state(robot, tick));
+  const RobotProblem& car = robots_[robot];
+  for (const int tick : needed_[robot])
+    car.locate(tied_.empty() ? car.moment(tick * tick_) : shared_moments_[static_cast<std::size_t>(tick)],
+               state(robot, tick));
   if (!net_) return;
   const std::vector<double>& times = net_->moments();
   for (std::size_t m = 0; m < times.size(); ++m)
-    robots_[robot].locate(times[m], moments_[robot * times.size() + m]);
+    car.locate(car.moment(times[m]), moments_[robot * times.size() + m]);
 }
 
 void JointProblem::pull_back(std::size_t robot) {
@@ -186,9 +200,15 @@ double JointProblem::team_cost(double knee) {
 double JointProblem::evaluate(std::span<const double> x, std::span<double> gradient, double knee) {
   const auto count = static_cast<int>(robots_.size());
   const std::span<const double> all = own(x);
+  if (!tied_.empty()) {
+    RobotProblem& first = robots_.front();
+    first.load(of(all, 0));
+    for (const int tick : needed_by_any_)
+      shared_moments_[static_cast<std::size_t>(tick)] = first.moment(tick * tick_);
+  }
   workers_.run(count, [&](int k) {
     const auto i = static_cast<std::size_t>(k);
-    robots_[i].load(of(all, i));
+    if (tied_.empty() || i > 0) robots_[i].load(of(all, i));
     costs_[i] = robots_[i].evaluate(knee);
     locate(i);
   });
@@ -220,10 +240,11 @@ SolveSummary JointProblem::solve(std::span<double> x, const Deadline& deadline, 
     options.decrease_tolerance = decrease;
     options.past = settings_.past;
     if (tied_.empty()) options.blocks.assign(offsets_.begin(), offsets_.end() - 1);
-    options.stop = [&](int iteration, double) {
+    options.changed = [&](int iteration) {
       if (refresh_at(iteration)) refresh(x);
-      return deadline.expired();
+      return refresh_at(iteration);
     };
+    options.stop = [&](int, double) { return deadline.expired(); };
     const optim::LbfgsSummary result = optim::minimize(
         [&](std::span<const double> y, std::span<double> g) { return evaluate(y, g, knee); }, x, options);
     summary.cost = result.cost;

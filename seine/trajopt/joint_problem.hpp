@@ -63,6 +63,7 @@ class JointProblem {
   std::span<const double> of(std::span<const double> own_x, std::size_t robot) const;
   void tie();
   void load(std::span<const double> x);
+  void find_shared_ticks();
   void locate(std::size_t robot);
   void pull_back(std::size_t robot);
   double team_cost(double knee);
@@ -79,6 +80,9 @@ class JointProblem {
   // With one timing: which variable each robot's own one is, and the robots' own values and gradients.
   std::vector<int> tied_;
   std::vector<double> own_x_, own_gradient_;
+  // With one timing all clocks are the same: the ticks, ascending, and what they are on it.
+  std::vector<int> needed_by_any_;
+  std::vector<Moment> shared_moments_;
   Proximity proximity_;
   std::optional<NetTerms> net_;
   std::vector<std::vector<int>> needed_;  // per robot: ticks that terms look at, ascending

@@ -56,11 +56,11 @@ void Proximity::watch(const Near& near, int coarse, bool closely) {
   for (int tick = from; tick <= to; ++tick) near_[static_cast<std::size_t>(tick)].push_back(near);
 }
 
-void Proximity::rebuild(std::span<const ClockState> states, double skin, double close) {
+void Proximity::rebuild(std::span<const ClockState> states, double skin, double close, int until) {
   for (auto& list : near_) list.clear();
   const std::size_t columns = outlines_.size();
   std::vector<Vec2> middles(columns);
-  for (int tick = 0; tick < ticks_; tick += kStride) {
+  for (int tick = 0; tick < std::min(ticks_, until); tick += kStride) {
     for (std::size_t i = 0; i < columns; ++i) {
       const Placement at = placement(static_cast<int>(i), tick, states);
       middles[i] = at.position + outlines_[i].offset * at.direction;

@@ -44,10 +44,12 @@ class Proximity {
 
   /// Every kStride-th tick is a coarse one: who is near whom is judged there.
   static constexpr int kStride = 3;
+  /// Whether anything moves that is not a car of the problem.
+  bool has_bodies() const { return !bodies_.empty(); }
   /// Finds who is near whom. @param states cars × ticks, of which the coarse ones are read  @param skin how
   /// far a pair may be apart beyond its clearance to be watched at coarse ticks; within `close` it is watched
-  /// at every tick
-  void rebuild(std::span<const ClockState> states, double skin, double close);
+  /// at every tick  @param until ticks from here on are not looked at
+  void rebuild(std::span<const ClockState> states, double skin, double close, int until);
   /// Ticks at which a car is near anything, ascending.
   const std::vector<int>& ticks_of(int car) const { return needed_[static_cast<std::size_t>(car)]; }
 

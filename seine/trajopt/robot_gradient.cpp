@@ -9,7 +9,8 @@ namespace seine::trajopt {
 using geom::Vec2;
 
 void RobotProblem::pull_back(const ClockState& c) {
-  Segment& s = segments_[static_cast<std::size_t>(c.segment)];
+  const Moment& at_time = c.moment;
+  Segment& s = segments_[static_cast<std::size_t>(at_time.segment)];
   const Vec2 g1 =
       (s.gear * c.inverse_m) * (c.g_direction - geom::dot(c.g_direction, c.direction) * c.direction);
   double power = 1.0, slope = 0.0;  // w^k, k w^(k−1)
@@ -23,11 +24,11 @@ void RobotProblem::pull_back(const ClockState& c) {
   const double g_u = geom::dot(c.g_position, c.d1) + geom::dot(g1, c.d2);
   power = 1.0;
   for (int k = 0; k < 6; ++k) {
-    gcu_[static_cast<std::size_t>(k * time_pieces_ + c.time_piece)] += g_u * power;
-    power *= c.wt;
+    gcu_[static_cast<std::size_t>(k * time_pieces_ + at_time.time_piece)] += g_u * power;
+    power *= at_time.wt;
   }
   // The clock is absolute: a longer piece, or a later start, leaves the car further back at the same instant.
-  s.g_h -= g_u * c.u1 * c.rho;
+  s.g_h -= g_u * c.u1 * at_time.rho;
   s.g_start -= g_u * c.u1;
 }
 

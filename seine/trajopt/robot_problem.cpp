@@ -233,7 +233,7 @@ void RobotProblem::load_segment(std::size_t index, std::span<const double> x) {
                     time_pieces_);
 }
 
-void RobotProblem::locate(double t, ClockState& state) const {
+Moment RobotProblem::moment(double t) const {
   std::size_t index = segments_.size() - 1;
   while (index > 0 && t < segments_[index].start) {
     // Between two segments the car rests at the later one's start as well as at the earlier one's end; take
@@ -246,21 +246,33 @@ void RobotProblem::locate(double t, ClockState& state) const {
     --index;
   }
   const Segment& s = segments_[index];
-  // Both clamps also send a NaN from a wild trial step to the first piece.
-  const auto inside = [](double value, double last) { return value > 0.0 ? std::min(value, last) : 0.0; };
-  const double rho = inside((t - s.start) / s.h, s.time_pieces);
+  // The clamp also sends a NaN from a wild trial step to the first piece.
+  const double since = (t - s.start) / s.h;
+  const double rho = since > 0.0 ? std::min(since, static_cast<double>(s.time_pieces)) : 0.0;
   const int tp = std::min(static_cast<int>(rho), s.time_pieces - 1);
-  const double wt = rho - tp;
-  const double* cu = cu_.data() + s.time_begin + tp;
+  // Resting, nothing depends on time.
+  const bool resting = t <= s.start || rho >= s.time_pieces;
+  const bool rolling = index == 0 && moving_start() && t >= s.start && rho < s.time_pieces;
+  return {.wt = rho - tp,
+          .rho = rho,
+          .segment = static_cast<int>(index),
+          .time_piece = s.time_begin + tp,
+          .resting = resting && !rolling};
+}
+
+void RobotProblem::locate(const Moment& moment, ClockState& state) const {
+  const Segment& s = segments_[static_cast<std::size_t>(moment.segment)];
+  const double* cu = cu_.data() + moment.time_piece;
   const int ts = time_pieces_;
+  const double wt = moment.wt;
   const double u =
       cu[0] + wt * (cu[ts] + wt * (cu[2 * ts] + wt * (cu[3 * ts] + wt * (cu[4 * ts] + wt * cu[5 * ts]))));
   const double du =
       cu[ts] + wt * (2 * cu[2 * ts] + wt * (3 * cu[3 * ts] + wt * (4 * cu[4 * ts] + wt * 5 * cu[5 * ts])));
-  const int piece = static_cast<int>(inside(u, s.pieces - 1));
+  // The clamp also sends a NaN from a wild trial step to the first piece.
+  const int piece = u > 0.0 ? static_cast<int>(std::min(u, s.pieces - 1.0)) : 0;
   const double w = u - piece;
-  const auto derivatives = [&](const double* c, double& p, double& d1, double& d2) {
-    const int n = pieces_;
+  const auto derivatives = [n = pieces_, w](const double* c, double& p, double& d1, double& d2) {
     const double c2 = c[2 * n], c3 = c[3 * n], c4 = c[4 * n], c5 = c[5 * n];
     p = c[0] + w * (c[n] + w * (c2 + w * (c3 + w * (c4 + w * c5))));
     d1 = c[n] + w * (2 * c2 + w * (3 * c3 + w * (4 * c4 + w * 5 * c5)));
@@ -271,13 +283,9 @@ void RobotProblem::locate(double t, ClockState& state) const {
   state.inverse_m = 1.0 / geom::norm(state.d1);
   state.direction = (s.gear * state.inverse_m) * state.d1;
   state.g_position = state.g_direction = {};
-  state.w = w, state.wt = wt, state.rho = rho;
-  // Resting, nothing depends on time.
-  const bool resting = t <= s.start || rho >= s.time_pieces;
-  state.u1 =
-      resting && !(index == 0 && moving_start() && t >= s.start && rho < s.time_pieces) ? 0.0 : du / s.h;
-  state.segment = static_cast<int>(index), state.piece = s.piece_begin + piece,
-  state.time_piece = s.time_begin + tp;
+  state.w = w, state.piece = s.piece_begin + piece;
+  state.u1 = moment.resting ? 0.0 : du / s.h;
+  state.moment = moment;
 }
 
 traj::RobotTrajectory RobotProblem::trajectory() const {

@@ -10,17 +10,24 @@
 
 namespace seine::trajopt {
 
+/// A time of the common clock on a car's own: the same for all cars that share one timing.
+struct Moment {
+  double wt = 0.0, rho = 0.0;       ///< within the progress piece; in pieces since the segment began
+  int segment = 0, time_piece = 0;  ///< pieces counted over all segments
+  bool resting = false;
+};
+
 /// A car's pose at one tick of the common clock, with what the chain rule needs; and ∂J/∂(position,
 /// direction), filled in by the pair terms.
 struct ClockState {
   geom::Vec2 position, direction;  ///< rear axle; unit heading of the body
   geom::Vec2 g_position, g_direction;
-  geom::Vec2 d1, d2;           ///< p', p'' with respect to u
-  double inverse_m = 1.0;      ///< 1/|p'|
-  double w = 0.0;              ///< within the curve's piece
-  double wt = 0.0, rho = 0.0;  ///< within the progress piece; in pieces since the segment began
-  double u1 = 0.0;             ///< u̇; 0 at rest
-  int segment = 0, piece = 0, time_piece = 0;  ///< pieces counted over all segments
+  geom::Vec2 d1, d2;       ///< p', p'' with respect to u
+  double inverse_m = 1.0;  ///< 1/|p'|
+  double w = 0.0;          ///< within the curve's piece
+  double u1 = 0.0;         ///< u̇; 0 at rest
+  int piece = 0;           ///< counted over all segments
+  Moment moment;
 };
 
 /// What repair rounds ask of a car whose limits were missed.
@@ -53,8 +60,10 @@ class RobotProblem {
   void load(std::span<const double> point);
   /// Own cost with the hinges' knee as given; keeps the gradient inside.
   double evaluate(double knee);
-  /// Pose at time t (units) on the common clock; before the start and after arrival the car stands still.
-  void locate(double t, ClockState& state) const;
+  /// Time t (units) of the common clock; before the start and after arrival the car stands still.
+  Moment moment(double t) const;
+  /// Its pose then.
+  void locate(const Moment& moment, ClockState& state) const;
   /// Adds the pull-back of state.g_position and state.g_direction to the gradient kept inside.
   void pull_back(const ClockState& state);
   /// ∂J/∂x, all of it.

@@ -104,5 +104,26 @@ TEST(Lbfgs, KeepsItsEvaluationLimitAndRefusesANonFiniteStart) {
   EXPECT_THROW(minimize([](auto v, auto g) { return g[0] = v[0]; }, bad, options), Error);
 }
 
+// An objective that becomes another one on the way, once to where the present point is worse than before: the
+// minimum of the last one is found all the same.
+TEST(Lbfgs, GoesOnWhenTheObjectiveChanges) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    constexpr int n = 8;
+    const Quadratic first(seed, n), second(seed + 100, n);
+    bool late = false;
+    LbfgsOptions options = tight();
+    options.changed = [&](int iteration) {
+      if (iteration != 3) return false;
+      late = true;
+      return true;
+    };
+    std::vector<double> x(n, 0.0);
+    minimize([&](std::span<const double> y,
+                 std::span<double> g) { return late ? 1000.0 + second(y, g) : first(y, g); },
+             x, options);
+    for (std::size_t i = 0; i < x.size(); ++i) EXPECT_NEAR(x[i], second.center[i], 1e-5) << "seed " << seed;
+  }
+}
+
 }  // namespace
 }  // namespace seine::optim

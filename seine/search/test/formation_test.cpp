@@ -110,6 +110,53 @@ TEST(Formation, AWallWithoutAGapHasNoWay) {
   EXPECT_FALSE(FormationSearch(t.problem).find({.max_expansions = 3000, .field = true}).has_value());
 }
 
+// A wall with a gap too narrow for the team as it stands: on the way through, and while the shape changes,
+// every car keeps its distance and the net has no wall in it.
+TEST(Formation, ChangesShapeWhereThereIsRoom) {
+  int changed = 0;
+  for (const int robots : {3, 4}) {
+    for (std::uint64_t seed = 0; seed < 6; ++seed) {
+      const world::Scenario scenario = world::gap_scene(robots, seed, 2.0);
+      const world::StaticMap map(scenario);
+      FormationProblem problem;
+      problem.scenario = &scenario, problem.map = problem.tall = &map;
+      problem.start = formation_frame(scenario);
+      problem.shapes = {start_formation(scenario)};
+      problem.shapes.front().lowest = 1e9;
+      problem.goal = FormationGoal{scenario.delivery->center, 0.35, {}};
+      FormationSearch search(problem);
+      search.offer(narrow_shapes(scenario, problem.start.heading, true, scenario.net->clearance));
+      const auto way = search.find({.heuristic_weight = 2.5, .field = true});
+      ASSERT_TRUE(way) << robots << " cars, seed " << seed;
+      std::size_t held = 0;
+      std::vector<Vec2> ring;
+      Formation now = problem.shapes.front();
+      for (const PathPoint& point : way->path.points) {
+        while (held + 1 < way->shapes.size() && point.s >= way->shapes[held + 1].s) ++held;
+        const auto& shapes = search.problem().shapes;
+        now = shapes[static_cast<std::size_t>(way->shapes[held].shape)];
+        if (held + 1 < way->shapes.size()) {
+          const FormationPath::Shape& next = way->shapes[held + 1];
+          const double share = (point.s - next.begin) / (next.s - next.begin);
+          const Formation before = now;
+          between(before, shapes[static_cast<std::size_t>(next.shape)], share, now);
+        }
+        for (std::size_t k = 0; k < now.offsets.size(); ++k) {
+          const Vec2 at = point.pose.position() + now.offsets[k];
+          const geom::Convex car =
+              geom::placed({scenario.models[0].footprint, 0.0}, {at.x, at.y, point.pose.heading});
+          EXPECT_TRUE(map.clear(car.core, scenario.margins.obstacle))
+              << robots << " cars, seed " << seed << ", car " << k << " at s = " << point.s;
+        }
+        attachments_at(scenario, now, point.pose, ring);
+        EXPECT_TRUE(map.clear(ring, 0.0)) << robots << " cars, seed " << seed << ", net at s = " << point.s;
+      }
+      changed += way->shapes.size() > 1;
+    }
+  }
+  EXPECT_GE(changed, 8) << "of 12 change their shape";
+}
+
 TEST(NarrowShapes, KeepTheNetSafeAndTheCarsApart) {
   for (const int robots : {3, 4, 5, 6}) {
     const world::Scenario scenario = world::gap_scene(robots, 3);

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "seine/search/formation_ground.hpp"
+#include "seine/vehicle/arc.hpp"
+
+// What the search for a formation's way is made of; internal to formation_search.cpp.
+namespace seine::search {
+
+inline constexpr int kChecks = 3;  ///< poses looked at in a step
+
+/// A step of the lattice: where it leads, from where it begins, and how long it takes at best.
+struct Move {
+  vehicle::Arc arc;
+  double time;
+  std::array<Stand, kChecks> way;
+};
+
+/// A pose that has been reached.
+struct Node {
+  Stand stand;
+  const Move* move;  ///< that led here
+  double cost, estimate;
+  double after;       ///< m driven since the last rendezvous was passed
+  double s;           ///< m driven
+  double held_since;  ///< m driven when the shape was complete
+  double change;      ///< m over which it changed to that
+  int parent;         ///< −1 at the root
+  int phase;          ///< rendezvous passed
+  int shape;          ///< held on the way here
+  bool closed = false;
+};
+
+/// What waits for its turn: a node, or a step from one that nobody has looked at yet.
+struct Entry {
+  double estimate;
+  int node;                  ///< the step's parent where there is one
+  std::int16_t move, shape;  ///< of the step; −1 for a node
+};
+
+/// Lowest estimate first, in slices of a few milliseconds; in a slice whoever came last, for it is furthest
+/// on.
+class Waiting {
+ public:
+  explicit Waiting(double slice) : slice_(slice) {}
+
+  void push(const Entry& entry) {
+    const auto at = static_cast<std::size_t>(entry.estimate / slice_);
+    if (at >= slices_.size()) slices_.resize(at + 1);
+    slices_[at].push_back(entry);
+    lowest_ = std::min(lowest_, at);
+  }
+  bool empty() {
+    while (lowest_ < slices_.size() && slices_[lowest_].empty()) ++lowest_;
+    return lowest_ >= slices_.size();
+  }
+  /// Needs !empty().
+  Entry pop() {
+    const Entry entry = slices_[lowest_].back();
+    slices_[lowest_].pop_back();
+    return entry;
+  }
+  /// Whether somebody's turn comes before that of an estimate.
+  bool any_before(double estimate) {
+    return !empty() && lowest_ < static_cast<std::size_t>(estimate / slice_);
+  }
+
+ private:
+  double slice_;
+  std::vector<std::vector<Entry>> slices_;
+  std::size_t lowest_ = 0;
+};
+
+}  // namespace seine::search
