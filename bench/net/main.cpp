@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bench/net/carry_scene.hpp"
+#include "bench/net/pocket_scene.hpp"
 #include "seine/base/rng.hpp"
 #include "seine/io/map_file.hpp"
 #include "seine/net/catch_rules.hpp"
@@ -150,8 +151,18 @@ int cusps_of(const traj::TeamTrajectory& team) {
   return cusps;
 }
 
+// Where a car changes gear first; where it ends if it never does.
+geom::Pose2 first_cusp(const traj::RobotTrajectory& robot) {
+  double t = 0.0;
+  for (std::size_t i = 0; i < robot.segments.size(); ++i) {
+    t += robot.segments[i].wait + robot.segments[i].duration();
+    if (i + 1 < robot.segments.size() && robot.segments[i + 1].gear != robot.segments[i].gear) break;
+  }
+  return robot.at(t).pose;
+}
+
 // What each part of the method brings, on the same throws.
-void ablation(int instances) {
+void ablation_of_throws(int instances) {
   const std::pair<const char*, planner::Ablation> variants[] = {{"everything", {}},
                                                                 {"without catch", {.catching = true}},
                                                                 {"without size", {.size = true}},
@@ -184,6 +195,38 @@ void ablation(int instances) {
   }
 }
 
+// Gear changes: where the guess had them, or free. Both on the instances that both solve.
+void ablation_of_cusps(int instances) {
+  std::printf(
+      "\nout of a pocket       certified  travel s  acceleration cost  at the gear change: heading turns rad "
+      " "
+      "moves m\n");
+  for (const int robots : {3, 4}) {
+    int certified = 0, fixed_certified = 0;
+    std::vector<double> travel, fixed_travel, effort, fixed_effort, turn, move;
+    for (int seed = 0; seed < instances; ++seed) {
+      const auto scenario = pocket_scene(robots, static_cast<std::uint64_t>(seed));
+      const planner::PlanResult free = plan(scenario, {});
+      const planner::PlanResult fixed = plan(scenario, {.without = {.cusps = true}});
+      certified += free.certified, fixed_certified += fixed.certified;
+      if (!free.certified || !fixed.certified) continue;
+      travel.push_back(free.quality.makespan), fixed_travel.push_back(fixed.quality.makespan);
+      effort.push_back(free.quality.acceleration_cost);
+      fixed_effort.push_back(fixed.quality.acceleration_cost);
+      for (std::size_t k = 0; k < free.plan.robots.size(); ++k) {
+        const geom::Pose2 a = first_cusp(free.plan.robots[k]), b = first_cusp(fixed.plan.robots[k]);
+        turn.push_back(std::abs(geom::wrap_angle(a.heading - b.heading)));
+        move.push_back(geom::norm(a.position() - b.position()));
+      }
+    }
+    std::printf("%d cars, cusps free    %4d of %3d %9.2f %18.1f %36.2f %8.2f\n", robots, certified, instances,
+                median(travel), median(effort), median(turn), median(move));
+    std::printf("%d cars, cusps fixed   %4d of %3d %9.2f %18.1f\n", robots, fixed_certified, instances,
+                median(fixed_travel), median(fixed_effort));
+    std::fflush(stdout);
+  }
+}
+
 }  // namespace
 }  // namespace seine::bench
 
@@ -194,6 +237,11 @@ int main(int count, char** arguments) {
     return 2;
   }
   const int instances = count > 2 ? std::max(1, std::atoi(arguments[2])) : ablation ? 40 : 100;
-  ablation ? seine::bench::ablation(instances) : seine::bench::catches(instances);
+  if (!ablation) {
+    seine::bench::catches(instances);
+    return 0;
+  }
+  seine::bench::ablation_of_throws(instances);
+  seine::bench::ablation_of_cusps(instances);
   return 0;
 }
