@@ -20,6 +20,7 @@ constexpr double kHopeless = 1.0, kProgress = 0.6, kNearly = 0.05;
 // Travel is 2 % longer than with the defaults, iterations are fewer than half as many.
 constexpr double kSoftDecrease = 2e-3, kDecrease = 1e-3;
 constexpr int kPast = 3;
+constexpr double kTighten = 0.015;      // longer pieces, more between samples
 constexpr double kGoOnDecrease = 2e-3;  // an optimum a little off needs no more than a touch
 constexpr std::size_t kShareCars = 8;
 constexpr double kTick = 0.1334;  // of the time a car takes to drive its own length
@@ -114,7 +115,8 @@ void NetSession::prepare() {
       task.model.limits.acceleration = std::min(task.model.limits.acceleration, net::kBraking);
   }
   settings_ = {};
-  settings_.soft_decrease = kSoftDecrease, settings_.stiff_decrease = kDecrease, settings_.past = kPast;
+  settings_.tighten = kTighten, settings_.soft_decrease = kSoftDecrease, settings_.stiff_decrease = kDecrease,
+  settings_.past = kPast;
   net_ = question_.task;
   demands_.assign(tasks_.size(), {});
   units_ = trajopt::units_of(tasks_);
