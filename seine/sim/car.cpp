@@ -41,16 +41,12 @@ Command Car::parked() const {
 }
 
 void Car::control(std::size_t index, double time, const traj::RobotTrajectory& way, const PlanClock& clock,
-                  const Controller& controller, bool allowed) {
+                  const Controller& controller, bool fails) {
   const Reference reference{way, clock.ahead(noise_.dead_time)};
-  std::optional<Command> command;
-  if (clock.stands() || clock.time() > way.arrival() + kParkAfter) {
-    command = parked();
-  } else if (allowed) {
-    command = controller(index, expected(time), reference);
-  }
-  failures_ = command ? 0 : failures_ + 1;
-  if (command) last_ = *command;
+  const bool arrived = clock.stands() || clock.time() > way.arrival() + kParkAfter;
+  const Control control = arrived ? Control{parked()} : controller(index, expected(time), reference, fails);
+  failures_ = control.failed ? failures_ + 1 : 0;
+  last_ = control.command;
   plant_.command(last_);
   sent_.push_back({time, last_});
   while (sent_.size() > 2 && sent_[1].time + noise_.dead_time < time) sent_.pop_front();

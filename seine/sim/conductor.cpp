@@ -26,8 +26,8 @@ std::string centimetres(double metres) {
 }  // namespace
 
 Conductor::Conductor(const world::Scenario& scenario, const traj::TeamTrajectory& plan,
-                     const SimulationOptions& options)
-    : scenario_(scenario), options_(options), plan_(plan) {}
+                     const SimulationOptions& options, double start)
+    : scenario_(scenario), options_(options), plan_(plan), clock_(start) {}
 
 std::string Conductor::name(std::size_t robot) const {
   const std::string& given = scenario_.robots[robot].name;
@@ -63,7 +63,10 @@ std::optional<std::string> Conductor::reason_to_stop(double time, std::span<cons
   }
   for (std::size_t k = 0; k < cars.size(); ++k) {
     if (cars[k].since_fix() > kBlind) return name(k) + " does not know where it is";
-    if (cars[k].failures() >= kFailures) return name(k) + " has no controller";
+    if (cars[k].failures() >= kFailures) {
+      silent_ = k;
+      return name(k) + " has no controller";
+    }
     const geom::Vec2 reference = clock_.state_on(plan_.robots[k]).pose.position();
     const double off = geom::norm(cars[k].belief().pose.position() - reference);
     if (off > kOffWay) return name(k) + " is " + centimetres(off) + " off its way";
@@ -72,7 +75,7 @@ std::optional<std::string> Conductor::reason_to_stop(double time, std::span<cons
 }
 
 bool Conductor::time_to_ask(double time, const std::vector<net::Target>& in_the_air) const {
-  if (!options_.replanner || candidate_ || time < next_ask_ - 1e-9) return false;
+  if (!options_.replanner || candidate_ || time < std::max(0.0, next_ask_) - 1e-9) return false;
   double next_catch = 1e300;
   for (const net::Target& target : in_the_air) {
     const auto crossing = net::Flight(target).crossing(scenario_.net->rim());

@@ -15,8 +15,9 @@ namespace seine::sim {
 /// in the air, and stops the team when it can no longer rely on a car.
 class Conductor {
  public:
+  /// @param start s, when it begins to be called
   Conductor(const world::Scenario& scenario, const traj::TeamTrajectory& plan,
-            const SimulationOptions& options);
+            const SimulationOptions& options, double start);
 
   /// To be called every control period, before the cars are told what to do.
   void decide(double time, std::span<const Car> cars, const std::vector<net::Target>& in_the_air);

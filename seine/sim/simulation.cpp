@@ -22,8 +22,17 @@ using geom::Vec3;
 
 constexpr double kAfterCatch = 2.6;          // s watched after the last target crossed the rim …
 constexpr double kAfterEnd = 1.0;            // … and after the team should have come to rest
+constexpr double kAtRest = 1e-3;             // m/s
 constexpr double kGoalTolerance = 0.1;       // m, of cars' goals
 constexpr double kDeliveryTolerance = 0.05;  // m beyond the delivery's radius, for driving errors
+
+// A team that moves already when its plan begins has no time for a countdown.
+double countdown_of(const traj::TeamTrajectory& plan) {
+  const bool rests =
+      std::all_of(plan.robots.begin(), plan.robots.end(),
+                  [](const traj::RobotTrajectory& way) { return std::abs(way.at(0.0).speed) < kAtRest; });
+  return rests ? kCountdown : 0.0;
+}
 
 class Loop {
  public:
@@ -47,6 +56,7 @@ class Loop {
   const Controller& controller_;
   const SimulationOptions& options_;
   Surroundings surroundings_;
+  double countdown_;  // s
   Conductor conductor_;
   std::vector<Car> cars_;
   std::optional<Scene> scene_;
@@ -61,7 +71,8 @@ Loop::Loop(const world::Scenario& scenario, const traj::TeamTrajectory& plan, co
       controller_(controller),
       options_(options),
       surroundings_(scenario),
-      conductor_(scenario, plan, options) {
+      countdown_(countdown_of(plan)),
+      conductor_(scenario, plan, options, -countdown_) {
   assert(plan.robots.size() == scenario.robots.size());
   Rng seeds(options.seed);
   for (std::size_t k = 0; k < scenario.robots.size(); ++k) {
@@ -95,12 +106,13 @@ SimulationResult Loop::run() {
     return tick % static_cast<int>(std::lround(period / kTick)) == 0;
   };
   if (options_.recorder != nullptr) options_.recorder->begin(scenario_);
-  double time = 0.0;
-  for (int tick = 0; time < end(); ++tick) {
-    if (every(tick, Localisation::kOdometryPeriod) && tick > 0) sense(time);
+  double time = -countdown_;
+  const int first = static_cast<int>(std::lround(time / kTick));
+  for (int tick = first; time < end(); ++tick) {
+    if (every(tick, Localisation::kOdometryPeriod) && tick > first) sense(time);
     if (scene_) scene_->look(time, options_.faults.target_jumps);
     if (every(tick, kControlPeriod)) control(time);
-    if (every(tick, kRecordPeriod)) {
+    if (tick >= 0 && every(tick, kRecordPeriod)) {
       measure(time);
       if (options_.recorder != nullptr) record(time);
     }
@@ -129,10 +141,10 @@ void Loop::control(double time) {
   for (const Faults::Breakdown& fault : options_.faults.breakdowns)
     if (time >= fault.at) cars_[fault.robot].break_down();
   for (std::size_t k = 0; k < cars_.size(); ++k) {
-    bool allowed = true;
+    bool fails = false;
     for (const Faults::FailedControl& fault : options_.faults.failed_controls)
-      allowed = allowed && !(fault.robot == k && time >= fault.at && time < fault.at + fault.duration);
-    cars_[k].control(k, time, conductor_.plan().robots[k], conductor_.clock(), controller_, allowed);
+      fails = fails || (fault.robot == k && time >= fault.at && time < fault.at + fault.duration);
+    cars_[k].control(k, time, conductor_.plan().robots[k], conductor_.clock(), controller_, fails);
   }
 }
 

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +18,8 @@ namespace seine::sim {
 inline constexpr double kTick = 1e-3;           ///< s: plants, net and targets
 inline constexpr double kControlPeriod = 0.05;  ///< s
 inline constexpr double kRecordPeriod = 0.01;   ///< s
+/// Controllers of a team at rest run so long before the plan begins: what acts late must be told early.
+inline constexpr double kCountdown = 0.3;  ///< s
 
 /// What a car has to do from now on: its way, and the clock to follow it by.
 struct Reference {
@@ -29,10 +30,15 @@ struct Reference {
   traj::State at(double ahead) const { return clock.ahead(ahead).state_on(way); }
 };
 
+/// What a controller wants of its car.
+struct Control {
+  Command command;
+  bool failed = false;  ///< it could not compute what it wanted, and falls back on this
+};
 /// Drives one car: called every kControlPeriod for each with where the car believes to be when the command
-/// will take effect, and the reference from then on. Nothing when it could not find a command.
+/// will take effect, and the reference from then on. `fails`: its computation is made to fail.
 using Controller =
-    std::function<std::optional<Command>(std::size_t robot, const CarState& now, const Reference& reference)>;
+    std::function<Control(std::size_t robot, const CarState& now, const Reference& reference, bool fails)>;
 
 /// The question a replanner is asked.
 struct Situation {

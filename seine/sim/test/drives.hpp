@@ -91,9 +91,10 @@ inline net::Target throw_at(const Drive& drive, double time, geom::Vec3 velocity
 }
 
 /// A plain tracking law (after Kanayama et al.): feed-forward, and feedback of the error in the car's frame.
+/// When it fails it holds what acts.
 inline Controller plain_tracker(const world::Scenario& scenario) {
-  return [&scenario](std::size_t robot, const CarState& now,
-                     const Reference& reference) -> std::optional<Command> {
+  return [&scenario](std::size_t robot, const CarState& now, const Reference& reference, bool fails) {
+    if (fails) return Control{{now.acceleration, now.steering}, true};
     const vehicle::Model& model = scenario.model_of(scenario.robots[robot]);
     const traj::State goal = reference.at(0.0);
     const geom::Vec2 off = goal.pose.position() - now.pose.position();
@@ -103,7 +104,7 @@ inline Controller plain_tracker(const world::Scenario& scenario) {
     const double direction = goal.speed >= 0.0 ? 1.0 : -1.0;
     const double curvature = goal.curvature + 4.0 * left + 3.0 * direction * turn;
     const double acceleration = goal.acceleration + 3.0 * (goal.speed - now.speed) + 3.0 * along;
-    return Command{acceleration, std::atan(model.wheelbase * curvature)};
+    return Control{{acceleration, std::atan(model.wheelbase * curvature)}};
   };
 }
 
