@@ -34,17 +34,21 @@ CarState Car::expected(double time) const {
   return state;
 }
 
-// Stands still whatever its localisation says: chasing that would keep it moving for ever.
-Command Car::parked() const {
-  const double hardest = model_.limits.acceleration;
-  return {std::clamp(-belief().speed / kControlPeriod, -hardest, hardest), belief().steering};
+// Stands still whatever its localisation says: chasing that would keep it moving for ever. What still acts
+// has its say before the command does; twice the lag is patience enough not to rock to and fro.
+Command Car::parked(double time) const {
+  const double hardest = model_.limits.acceleration, lag = noise_.acceleration_lag;
+  const CarState then = expected(time);
+  const double rolling = then.speed + lag * then.acceleration;
+  return {std::clamp(-rolling / (kControlPeriod + 2.0 * lag), -hardest, hardest), belief().steering};
 }
 
 void Car::control(std::size_t index, double time, const traj::RobotTrajectory& way, const PlanClock& clock,
                   const Controller& controller, bool fails) {
   const Reference reference{way, clock.ahead(noise_.dead_time)};
   const bool arrived = clock.stands() || clock.time() > way.arrival() + kParkAfter;
-  const Control control = arrived ? Control{parked()} : controller(index, expected(time), reference, fails);
+  const Control control =
+      arrived ? Control{parked(time)} : controller(index, expected(time), reference, fails);
   failures_ = control.failed ? failures_ + 1 : 0;
   last_ = control.command;
   plant_.command(last_);

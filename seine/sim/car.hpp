@@ -35,7 +35,7 @@ class Car {
     Command command;
   };
   CarState expected(double time) const;
-  Command parked() const;
+  Command parked(double time) const;
 
   const vehicle::Model& model_;
   Noise noise_;
