@@ -24,6 +24,7 @@ struct Invocation {
 // source file each.
 void add_plan(CLI::App& program, Invocation& invocation);
 void add_certify(CLI::App& program, Invocation& invocation);
+void add_simulate(CLI::App& program, Invocation& invocation);
 void add_plot(CLI::App& program, Invocation& invocation);
 void add_generate(CLI::App& program, Invocation& invocation);
 void add_export(CLI::App& program, Invocation& invocation);

@@ -18,10 +18,11 @@ using seine::app::Invocation;
 constexpr const char* kFooter = R"(Examples
   seine generate random --robots 8 --seed 1 -o team.yaml      make a task
   seine plan team.yaml -o plan.json                           plan it; exit status 0 says: certified
+  seine simulate team.yaml plan.json --noise low              drive it
   seine plot team.yaml plan.json -o plan.svg                  look at it
   seine certify team.yaml plan.json                           prove any plan, also an edited one
   seine export team.yaml plan.json --rate 50 -o states.csv    what every car does, 50 times a second
-Exit status: 0 done (plan: certified), 1 no (no certified plan, refuted), 2 wrong input or usage.
+Exit status: 0 done (plan: certified; simulate: everything asked for happened), 1 no (no certified plan, refuted), 2 wrong input or usage.
 `seine COMMAND --help` tells more.)";
 
 /// One line on stderr, and with --json also an object on stdout.
@@ -57,6 +58,7 @@ int main(int argc, char** argv) {
   Invocation invocation;
   seine::app::add_plan(program, invocation);
   seine::app::add_certify(program, invocation);
+  seine::app::add_simulate(program, invocation);
   seine::app::add_plot(program, invocation);
   seine::app::add_export(program, invocation);
   seine::app::add_generate(program, invocation);

@@ -58,6 +58,25 @@ std::string clearances(const world::Scenario& scenario, const certify::Certifica
   return text + nets(certificate);
 }
 
+constexpr double kFarApart = 0.99;  // m: the simulation does not look further
+
+std::string verdict(const sim::SimulationResult& driven) {
+  if (driven.done()) return driven.outcomes.empty() ? "ARRIVED" : "DELIVERED";
+  if (driven.outcomes.empty()) return driven.delivered ? "ARRIVED, DAMAGED" : "NOT ARRIVED";
+  if (driven.delivered) return "DELIVERED, DAMAGED";
+  return driven.caught ? "CAUGHT, NOT DELIVERED" : "NOT CAUGHT";
+}
+
+/// What happened when; of many alike the first ones.
+std::string events(const sim::SimulationResult& driven) {
+  constexpr std::size_t kShown = 12;
+  std::string text;
+  for (std::size_t i = 0; i < driven.notes.size() && i < kShown; ++i)
+    text += printed("  %6.2f s       ", driven.notes[i].time) + driven.notes[i].text + "\n";
+  if (driven.notes.size() > kShown) text += printed("  and %zu more\n", driven.notes.size() - kShown);
+  return text;
+}
+
 }  // namespace
 
 std::string summary(const world::Scenario& scenario, const planner::PlanResult& result) {
@@ -91,6 +110,28 @@ std::string summary(const world::Scenario& scenario, const certify::Certificate&
     text += printed("  and %zu more\n", certificate.violations.size() - kShown);
   }
   return text + checked;
+}
+
+std::string summary(const world::Scenario& scenario, const sim::SimulationResult& driven) {
+  std::string text =
+      verdict(driven) + "  " + scenario.name + ", " + team(scenario) + "\n" + events(driven) +
+      printed("  tracking       %.3f m RMS, %.3f m at worst\n", driven.tracking_rms, driven.tracking_worst);
+  if (driven.min_clearance < kFarApart) {
+    text +=
+        driven.min_clearance > 0.0
+            ? printed("  closest        %.3f m, cars to each other and to obstacles\n", driven.min_clearance)
+            : printed("  collision      %.3f m into each other or into obstacles\n", -driven.min_clearance);
+  }
+  if (scenario.net)
+    text += printed("  net            %.1f %% of its length at most%s\n", 100.0 * driven.worst_stretch,
+                    driven.worst_stretch > 1.0 ? ": it would tear" : "");
+  if (!driven.delivered && driven.goal_error > 0.0)
+    text += printed("  goal           missed by %.2f m\n", driven.goal_error);
+  if (driven.replans_asked > 0)
+    text += printed("  new plans      %d followed of %d, %d too late\n", driven.replans, driven.replans_asked,
+                    driven.replans_late);
+  return text + printed("  simulated      %.2f s, %.1f times as fast as real time\n", driven.duration,
+                        driven.real_time_factor);
 }
 
 }  // namespace seine::app

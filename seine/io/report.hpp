@@ -4,6 +4,7 @@
 
 #include "seine/certify/certificate.hpp"
 #include "seine/planner/planner.hpp"
+#include "seine/sim/simulation.hpp"
 #include "seine/world/scenario.hpp"
 
 // What `--json` prints: one JSON object and a line end.
@@ -12,6 +13,12 @@ namespace seine::io {
 /// The outcome of planning (design section 10). Keys without a meaning are left out: costs without a
 /// certified plan, clearances that are beyond what the certificate looks at.
 std::string report_json(const world::Scenario& scenario, const planner::PlanResult& result);
+
+/// The same and how it went when the plan was driven: caught (of targets and payloads), delivered,
+/// tracking_rms_m, replans, real_time_factor, and more (docs/simulation.md). Times of planning are left out
+/// for a plan that was not made here (`iterations` 0).
+std::string report_json(const world::Scenario& scenario, const planner::PlanResult& result,
+                        const sim::SimulationResult& driven);
 
 /// A verdict on a plan made elsewhere: certified, reason, robots, certify_s, clearances, violations.
 std::string report_json(const world::Scenario& scenario, const certify::Certificate& certificate);

@@ -114,6 +114,7 @@ SimulationResult Loop::run() {
     if (every(tick, kControlPeriod)) control(time);
     if (tick >= 0 && every(tick, kRecordPeriod)) {
       measure(time);
+      if (options_.progress) options_.progress(time / end());
       if (options_.recorder != nullptr) record(time);
     }
     time = kTick * (tick + 1);

@@ -89,10 +89,11 @@ struct SimulationOptions {
   Noise noise;
   std::uint64_t seed = 0;
   Faults faults;
-  Replanner replanner;            ///< none: the team keeps its plan
-  double replan_period = 0.1;     ///< s
-  double replan_deadline = 0.05;  ///< s
-  Recorder* recorder = nullptr;   ///< gets every signal
+  Replanner replanner;                        ///< none: the team keeps its plan
+  double replan_period = 0.1;                 ///< s
+  double replan_deadline = 0.05;              ///< s
+  Recorder* recorder = nullptr;               ///< gets every signal
+  std::function<void(double part)> progress;  ///< optional; 0 … 1, every kRecordPeriod
 };
 
 /// What became of one target (or of the payload).
@@ -119,6 +120,9 @@ struct SimulationResult {
   double duration = 0.0;          ///< s, simulated
   double real_time_factor = 0.0;  ///< simulated / wall time
   std::vector<Note> notes;        ///< what happened, in order
+
+  /// Everything that was asked for, with nothing broken on the way.
+  bool done() const { return caught && delivered && min_clearance > 0.0 && worst_stretch <= 1.0; }
 };
 
 /// Lets the team drive `plan` in the world of `scenario`, with sensors, delays and physics. `plan` is trusted

@@ -10,11 +10,11 @@ TEST(Usage, HelpTeaches) {
   const Outcome help = scratch.run("--help");
   EXPECT_EQ(help.status, 0);
   for (const char* word :
-       {"plan", "certify", "plot", "export", "generate", "bench", "Examples", "Exit status"}) {
+       {"plan", "certify", "simulate", "plot", "export", "generate", "bench", "Examples", "Exit status"}) {
     EXPECT_NE(help.out.find(word), std::string::npos) << word;
   }
   EXPECT_EQ(help.err, "");
-  for (const char* command : {"plan", "certify", "plot", "export", "generate", "bench"}) {
+  for (const char* command : {"plan", "certify", "simulate", "plot", "export", "generate", "bench"}) {
     const Outcome more = scratch.run(std::string(command) + " --help");
     EXPECT_EQ(more.status, 0) << command;
     EXPECT_NE(more.out.find("Example"), std::string::npos) << command;
@@ -42,20 +42,26 @@ TEST_P(WrongUsage, IsOneLineAndStatusTwo) {
 
 INSTANTIATE_TEST_SUITE_P(
     Cli, WrongUsage,
-    testing::Values("", "paln s.yaml", "plan", "plan s.yaml --frobnicate", "plan s.yaml --deadline 0",
-                    "plan s.yaml --deadline -1", "plan s.yaml --deadline nan", "plan s.yaml --deadline soon",
-                    "plan s.yaml --threads -1", "plan s.yaml --threads 1e9", "plan s.yaml --seed -4",
-                    "plan s.yaml --seed x", "plan s.yaml --method magic",
-                    "plan s.yaml -o no/such/folder/plan.json", "plan s.yaml -o .", "plan missing.yaml",
-                    "plan .", "plan s.yaml s.yaml", "certify s.yaml", "certify s.yaml missing.json",
-                    "certify s.yaml s.yaml", "plot s.yaml", "plot s.yaml missing.json -o a.svg",
-                    "export s.yaml missing.json", "export s.yaml missing.json --rate 0 -o a.csv", "generate",
-                    "generate rondom", "generate random --robots 0", "generate random --robots -3",
-                    "generate random --robots 1000000000", "generate random --robots three",
-                    "generate swap --obstacles 4", "generate random --obstacles -1", "generate map",
-                    "generate map --map s.yaml", "generate random --map s.yaml", "bench",
-                    "bench --family rondom", "bench missing.yaml --seeds 0",
-                    "bench --reference missing.csv s.yaml", "view s.yaml", "simulate s.yaml"));
+    testing::Values(
+        "", "paln s.yaml", "plan", "plan s.yaml --frobnicate", "plan s.yaml --deadline 0",
+        "plan s.yaml --deadline -1", "plan s.yaml --deadline nan", "plan s.yaml --deadline soon",
+        "plan s.yaml --threads -1", "plan s.yaml --threads 1e9", "plan s.yaml --seed -4",
+        "plan s.yaml --seed x", "plan s.yaml --method magic", "plan s.yaml -o no/such/folder/plan.json",
+        "plan s.yaml -o .", "plan missing.yaml", "plan .", "plan s.yaml s.yaml", "certify s.yaml",
+        "certify s.yaml missing.json", "certify s.yaml s.yaml", "plot s.yaml",
+        "plot s.yaml missing.json -o a.svg", "export s.yaml missing.json",
+        "export s.yaml missing.json --rate 0 -o a.csv", "generate", "generate rondom",
+        "generate random --robots 0", "generate random --robots -3", "generate random --robots 1000000000",
+        "generate random --robots three", "generate swap --obstacles 4", "generate random --obstacles -1",
+        "generate map", "generate map --map s.yaml", "generate random --map s.yaml", "bench",
+        "bench --family rondom", "bench missing.yaml --seeds 0", "bench --reference missing.csv s.yaml",
+        "view s.yaml", "simulate", "simulate missing.yaml", "simulate s.yaml missing.json",
+        "simulate s.yaml --noise loud", "simulate s.yaml --log drive.txt",
+        "simulate s.yaml --log no/such/folder/drive.csv", "simulate s.yaml --fault",
+        "simulate s.yaml --fault earthquake@1", "simulate s.yaml --fault breakdown:nobody@1",
+        "simulate s.yaml --fault breakdown:left", "simulate s.yaml --fault breakdown:left@soon",
+        "simulate s.yaml --fault breakdown:left@1+1", "simulate s.yaml --fault lost-fix:left@1+-1",
+        "simulate s.yaml --fault late-replan:left@1", "simulate s.yaml --fault target-jump@1=1,0,0"));
 
 TEST(Usage, GenerateIsDeterministicAndLoads) {
   const Scratch scratch;
