@@ -17,5 +17,7 @@ int main(int count, char** arguments) {
   if (wanted("tracking")) tracking(runs);
   if (wanted("collisions")) collisions(runs);
   if (wanted("throws")) throws(runs);
+  if (wanted("replanning")) replanning(runs);
+  if (wanted("speed")) speed(runs);
   return 0;
 }

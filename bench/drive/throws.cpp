@@ -5,43 +5,11 @@
 
 #include "bench/drive/parts.hpp"
 #include "bench/drive/statistics.hpp"
+#include "bench/drive/tasks.hpp"
 #include "seine/drive/replanner.hpp"
-#include "seine/drive/tracking.hpp"
-#include "seine/planner/planner.hpp"
-#include "seine/sim/simulation.hpp"
-#include "seine/world/net_families.hpp"
 
 namespace seine::bench {
 namespace {
-
-constexpr double kDeadline = 20.0;  // s
-
-struct Planned {
-  std::uint64_t seed;
-  world::Scenario scenario;
-  traj::TeamTrajectory plan;
-};
-
-// The first throws that the planner certifies.
-std::vector<Planned> certified_throws(int robots, int count) {
-  std::vector<Planned> all;
-  for (std::uint64_t seed = 0; static_cast<int>(all.size()) < count; ++seed) {
-    Planned planned{seed, world::throw_scene(robots, seed), {}};
-    planner::PlanResult result = planner::plan(planned.scenario, {.deadline_s = kDeadline});
-    if (!result.certified) continue;
-    planned.plan = std::move(result.plan);
-    all.push_back(std::move(planned));
-    progress("planning", static_cast<int>(all.size()), count);
-  }
-  return all;
-}
-
-sim::SimulationResult drive_one(const Planned& task, const sim::Noise& noise) {
-  const sim::Controller controller =
-      drive::tracking_controller(task.scenario, drive::tracking_options(noise));
-  return sim::simulate(task.scenario, task.plan, controller,
-                       {.noise = noise, .seed = task.seed, .replanner = drive::replanner()});
-}
 
 void tell(const Planned& task, const sim::SimulationResult& result) {
   std::printf(
@@ -64,7 +32,7 @@ void throws(int runs) {
       int caught = 0, delivered = 0, taken = 0, asked = 0, late = 0;
       std::vector<double> error, factor;
       for (const Planned& task : tasks) {
-        const sim::SimulationResult result = drive_one(task, noise);
+        const sim::SimulationResult result = drive(task, {.noise = noise, .replanner = drive::replanner()});
         caught += result.caught, delivered += result.delivered;
         taken += result.replans, asked += result.replans_asked, late += result.replans_late;
         error.push_back(result.tracking_rms), factor.push_back(result.real_time_factor);
