@@ -19,5 +19,6 @@ int main(int count, char** arguments) {
   if (wanted("throws")) throws(runs);
   if (wanted("replanning")) replanning(runs);
   if (wanted("speed")) speed(runs);
+  if (wanted("drops")) drops(5 * runs);
   return 0;
 }

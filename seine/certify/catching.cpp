@@ -47,7 +47,7 @@ std::vector<net::Catch> CatchCheck::run(const std::vector<std::optional<net::Cro
     }
     look_at_team(time);
     catches.back() =
-        net::measure_catch(net_, context_.scenario.targets[i], *crossings[i], attachments_, velocity_);
+        net::measure_catch(net_, context_.scenario.targets[i], *crossings[i], attachments_, motion_);
     judge(i, catches.back());
   }
   return catches;
@@ -55,15 +55,21 @@ std::vector<net::Catch> CatchCheck::run(const std::vector<std::optional<net::Cro
 
 void CatchCheck::look_at_team(double t) {
   attachments_.clear();
-  velocity_ = {};
+  motion_ = {};
+  const double share = 1.0 / static_cast<double>(plan_.robots.size());
   for (std::size_t k = 0; k < plan_.robots.size(); ++k) {
     const traj::State state = plan_.robots[k].at(t);
     const Vec2 at = state.pose * net_.attachments[k].at;
-    const double turn = state.speed * state.curvature;  // rad/s
+    const Vec2 ahead = state.pose.direction(), arm = at - state.pose.position();
+    // Of the heading, rad/s and rad/s²; then a rigid body's motion.
+    const double turn = state.speed * state.curvature;
+    const double twist = state.acceleration * state.curvature + state.speed * state.curvature_rate;
     attachments_.push_back(at);
-    velocity_ += state.speed * state.pose.direction() + turn * geom::left_normal(at - state.pose.position());
+    motion_.velocity += share * (state.speed * ahead + turn * geom::left_normal(arm));
+    motion_.acceleration +=
+        share * (state.acceleration * ahead + state.lateral_acceleration * geom::left_normal(ahead) +
+                 twist * geom::left_normal(arm) - (turn * turn) * arm);
   }
-  velocity_ = velocity_ / static_cast<double>(plan_.robots.size());
 }
 
 double CatchCheck::highest_under(double t) const {

@@ -42,7 +42,7 @@ class CatchCheck {
   const traj::TeamTrajectory& plan_;
   const Scene& scene_;
   std::vector<geom::Vec2> attachments_;
-  geom::Vec2 velocity_;  // mean of the attachments', m/s
+  net::Motion motion_;  // of their mean
   std::vector<Finding> findings_;
 };
 

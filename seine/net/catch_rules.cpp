@@ -21,16 +21,20 @@ double impact_drop(double speed, double mass) {
 }
 
 Catch measure_catch(const Net& net, const Target& target, const Crossing& crossing,
-                    std::span<const Vec2> attachments, Vec2 formation_velocity) {
+                    std::span<const Vec2> attachments, const Motion& formation) {
   const Vec2 at = crossing.state.position.ground();
-  const Vec2 sideways = crossing.state.velocity.ground() - formation_velocity;
+  const Vec2 sideways = crossing.state.velocity.ground() - formation.velocity;
   const double falling = -crossing.state.velocity.z;
   const double depth = loaded_depth(net, attachments);
   const double covered = target.radius + crossing.error;
+  const Vec2 contact = at + (depth / falling) * sideways;
+  // To a team that speeds up, what lies in the net weighs backwards as well.
+  const Vec2 settled = contact - (depth / kGravity) * formation.acceleration;
   const double speed = std::hypot(geom::norm(sideways), falling);
   return {.time = crossing.state.time,
           .rim_margin = margin_inside(attachments, at) - covered,
-          .contact_margin = margin_inside(attachments, at + (depth / falling) * sideways) - covered,
+          .contact_margin =
+              std::min(margin_inside(attachments, contact), margin_inside(attachments, settled)) - covered,
           .opening = opening(net, attachments),
           .depth = depth,
           .angle = std::atan2(geom::norm(sideways), falling),

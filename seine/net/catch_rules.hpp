@@ -36,19 +36,27 @@ double impact_drop(double speed, double mass);
 
 /// What a catch comes to.
 struct Catch {
-  double time = 0.0;            ///< s, when the target's centre falls through the rim plane
-  double rim_margin = 0.0;      ///< m: that point to the nearest edge, less radius and prediction error
-  double contact_margin = 0.0;  ///< m: the same where the flight has fallen by `depth` in a straight line
-  double opening = 0.0;         ///< of the net then
-  double depth = 0.0;           ///< m: how far its middle hangs below the rim
-  double angle = 0.0;           ///< rad, of the relative velocity from straight down
-  double speed = 0.0;           ///< m/s, relative
-  double bottom = 0.0;          ///< m above the ground: the deepest the net goes in the impact
+  double time = 0.0;        ///< s, when the target's centre falls through the rim plane
+  double rim_margin = 0.0;  ///< m: that point to the nearest edge, less radius and prediction error
+  /// m: the same where the flight has fallen by `depth` in a straight line, and where a plumb line of that
+  /// length then hangs as the formation accelerates: the smaller of both
+  double contact_margin = 0.0;
+  double opening = 0.0;  ///< of the net then
+  double depth = 0.0;    ///< m: how far its middle hangs below the rim
+  double angle = 0.0;    ///< rad, of the relative velocity from straight down
+  double speed = 0.0;    ///< m/s, relative
+  double bottom = 0.0;   ///< m above the ground: the deepest the net goes in the impact
+};
+
+/// How the middle of the attachments moves.
+struct Motion {
+  geom::Vec2 velocity;      ///< m/s
+  geom::Vec2 acceleration;  ///< m/s²
 };
 
 /// Measures the catch of `target` as it falls through the rim plane (`crossing`), with the attachments where
-/// they are then and their mean velocity then (m/s).
+/// they are then and moving as they do then.
 Catch measure_catch(const Net& net, const Target& target, const Crossing& crossing,
-                    std::span<const geom::Vec2> attachments, geom::Vec2 formation_velocity);
+                    std::span<const geom::Vec2> attachments, const Motion& formation);
 
 }  // namespace seine::net

@@ -26,8 +26,11 @@ constexpr double kDepthSlack = 0.008, kSpeedSlack = 0.1;
 constexpr double kHoldingReserve = 0.3, kReserveShare = 0.7;
 // Sideways speed asked for on top of what the guess expects, m/s.
 constexpr double kSidewaysRoom = 0.6;
-constexpr double kHeldReserve = 0.004;  // of the net at rest: what samples miss after a catch
-constexpr double kCruise = 0.9;         // of the top speed: what the formation is expected to drive
+// The best plan lies on the limits it is given: what is asked is a little more than what the certificate
+// wants, as a net that closes under an object that lies near its edge may lose it (docs/simulation.md).
+constexpr double kContactReserve = 0.03;  // m
+constexpr double kHeldOpen = 0.90;        // for net::kHoldTime
+constexpr double kCruise = 0.9;           // of the top speed: what the formation is expected to drive
 
 std::string text(const char* pattern, auto... values) {
   char buffer[256];
@@ -170,7 +173,7 @@ class Asking {
     trajopt::CatchTask task;
     task.time = at.time, task.point = point, task.velocity = velocity;
     task.margin = net::kRimMargin + error;
-    task.contact_margin = net::kContactMargin + error;
+    task.contact_margin = net::kContactMargin + kContactReserve + error;
     const double needed = least_time(scenario_, point, task.margin);
     if (needed > task.time)
       return refuse(name + text(" cannot be reached: the team needs at least %.2f s to hold the net around "
@@ -185,8 +188,9 @@ class Asking {
     if (!allow_speed(name, target, down, velocity, drive, top, task)) return false;
     // The deepest the net may hang: what is inside there and at the rim is inside between.
     task.contact_delay = most_depth_ / down;
+    task.lean = most_depth_ / net::kGravity;
     task.least_opening = net::kLeastOpening;
-    task.held_opening = net::kHeldOpening + kHeldReserve, task.hold = net::kHoldTime;
+    task.held_opening = kHeldOpen, task.hold = net::kHoldTime;
     task.least_spread = std::sqrt(std::max(0.0, spread_ * spread_ - most_depth_ * most_depth_));
     task.most_radius = std::sqrt(std::max(0.0, spread_ * spread_ - least_depth_ * least_depth_));
     question_.task.catches.push_back(task);

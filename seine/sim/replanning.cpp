@@ -13,7 +13,7 @@ using geom::Vec2;
 
 constexpr double kSameShortfall = 1e-3;  // m
 constexpr double kWorthWhile = 0.05;     // s sooner, for a change of plan that catches no better
-constexpr double kMoment = 1e-3;         // s, for velocities
+constexpr double kMoment = 1e-3;         // s, for velocities and accelerations
 
 double lack(double value, double least) {
   return std::max(0.0, least - value);
@@ -43,8 +43,11 @@ Worth worth_of(const world::Scenario& scenario, const traj::TeamTrajectory& plan
     if (!crossing) continue;
     const double then = crossing->state.time - begin;
     const std::vector<Vec2> held = attachments_at(scenario, plan, then);
-    const Vec2 velocity = (mean(attachments_at(scenario, plan, then + kMoment)) - mean(held)) / kMoment;
-    const net::Catch c = net::measure_catch(*scenario.net, target, *crossing, held, velocity);
+    const Vec2 before = mean(attachments_at(scenario, plan, then - kMoment)), now = mean(held),
+               after = mean(attachments_at(scenario, plan, then + kMoment));
+    const net::Motion motion{(after - before) / (2.0 * kMoment),
+                             (after - 2.0 * now + before) / (kMoment * kMoment)};
+    const net::Catch c = net::measure_catch(*scenario.net, target, *crossing, held, motion);
     worth.shortfall += lack(c.rim_margin, net::kRimMargin) + lack(c.contact_margin, net::kContactMargin) +
                        lack(c.opening, net::kLeastOpening);
   }

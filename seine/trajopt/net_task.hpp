@@ -15,8 +15,9 @@ struct CatchTask {
   geom::Vec2 point;             ///< … here …
   double margin = 0.3;          ///< … and is this far inside every edge of the net, m
   double contact_delay = 0.0;   ///< s later it meets the net, if both go on straight …
-  double contact_margin = 0.2;  ///< … this far inside, m
-  geom::Vec2 velocity;          ///< of the target over ground, m/s
+  double contact_margin = 0.2;  ///< … this far inside, m …
+  double lean = 0.0;    ///< s², … and that also moved by this times the net's acceleration backwards
+  geom::Vec2 velocity;  ///< of the target over ground, m/s
   double most_sideways = std::numeric_limits<double>::infinity();  ///< m/s relative to the net's middle
   double least_opening = 0.0;                                      ///< of the net at rest, at the catch
   double held_opening = 0.0;                                       ///< and for `hold` seconds after

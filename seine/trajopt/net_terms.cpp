@@ -37,7 +37,7 @@ NetTask scaled(NetTask task, const Units& units) {
   for (net::Attachment& a : task.net.attachments) a.at *= l, a.height *= l;
   task.net.clearance *= l;
   for (CatchTask& c : task.catches) {
-    c.time *= t, c.contact_delay *= t, c.hold *= t;
+    c.time *= t, c.contact_delay *= t, c.hold *= t, c.lean *= t * t;
     c.point *= l;
     c.margin *= l, c.contact_margin *= l, c.least_spread *= l, c.most_radius *= l;
     c.velocity *= v, c.most_sideways *= v;
@@ -306,21 +306,27 @@ double NetTerms::catch_cost(const Catch& c, std::span<ClockState> states, double
   place(states, c.rim, row, rim);
   place(states, c.before, row, before);
   place(states, c.after, row, after);
-  Vec2 p, q, g_p, g_q, g_contact, unused;
+  const double half = 0.5 * span;
+  Vec2 p, m, q, g_p, g_q, g_contact, g_settled, unused;
   for (const Vec2 a : before.at) p += share * a;
+  for (const Vec2 a : rim.at) m += share * a;
   for (const Vec2 a : after.at) q += share * a;
   double cost = inside(rim, c.task.point, c.task.margin, knee, unused);
   cost += opening_cost(c, rim, knee);
   // Seen from the net, the target goes on straight from the rim to the contact.
   const Vec2 contact = c.task.point + c.task.contact_delay * (c.task.velocity - (q - p) / span);
   cost += inside(rim, contact, c.task.contact_margin, knee, g_contact);
+  // As the net speeds up, what lies in it weighs backwards.
+  const double lean = c.task.lean / (half * half);
+  cost += inside(rim, contact - lean * (p - 2.0 * m + q), c.task.contact_margin, knee, g_settled);
   const double excess =
       constraint::catch_velocity(p, q, span, c.task.velocity, c.task.most_sideways, g_p, g_q);
   double slope;
   cost += moment_weight_ * math::hinge(excess, knee, slope);
-  const Vec2 drift = (c.task.contact_delay / span) * g_contact;
-  for (Vec2& g : before.gradient) g = share * (moment_weight_ * slope * g_p + drift);
-  for (Vec2& g : after.gradient) g = share * (moment_weight_ * slope * g_q - drift);
+  const Vec2 drift = (c.task.contact_delay / span) * (g_contact + g_settled), sway = lean * g_settled;
+  for (Vec2& g : before.gradient) g = share * (moment_weight_ * slope * g_p + drift - sway);
+  for (Vec2& g : after.gradient) g = share * (moment_weight_ * slope * g_q - drift - sway);
+  for (Vec2& g : rim.gradient) g += (2.0 * share) * sway;
   pull(states, c.rim, row, rim);
   pull(states, c.before, row, before);
   pull(states, c.after, row, after);

@@ -125,14 +125,14 @@ bool catchable(const net::Net& net, double turn, const Throw& thrown, Vec2 drive
   const auto crossing = net::Flight(target).crossing(net.rim());
   for (int percent = 88; percent <= 94; percent += 2) {
     std::vector<Vec2> corners = held_net(net, 0.01 * percent + 1e-9, turn);
-    const net::Catch centred = net::measure_catch(net, target, *crossing, corners, drive);
+    const net::Catch centred = net::measure_catch(net, target, *crossing, corners, {drive, {}});
     // The middle of the net between the two points that need room, a little nearer to where less is needed.
     const Vec2 sideways = thrown.velocity.ground() - drive;
     const double shift = centred.depth * geom::norm(sideways) / -thrown.velocity.z;
     const double ahead = std::max(0.0, 0.5 * (shift - (net::kRimMargin - net::kContactMargin)));
     const Vec2 offset = shift > 1e-9 ? (ahead / geom::norm(sideways)) * sideways : Vec2{};
     for (Vec2& corner : corners) corner += offset;
-    const net::Catch c = net::measure_catch(net, target, *crossing, corners, drive);
+    const net::Catch c = net::measure_catch(net, target, *crossing, corners, {drive, {}});
     const double limit = net::speed_limit(c.depth, target.radius, net.rebound);
     if (c.rim_margin >= net::kRimMargin + kEase && c.contact_margin >= net::kContactMargin + kEase &&
         c.angle <= (1.0 - kEase) * net::kMaxAngle && c.speed <= (1.0 - kEase) * limit &&

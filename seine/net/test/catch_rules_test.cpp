@@ -61,12 +61,29 @@ TEST(MeasureCatch, ASlantedFlightMeetsTheNetFurtherOn) {
   const Vec2 at = crossing->state.position.ground();
   std::vector<Vec2> hold = regular_polygon(4, 0.9 * std::sqrt(2.0), 0.25 * std::numbers::pi);
   for (Vec2& a : hold) a += at;
-  const Catch c = measure_catch(net, target, *crossing, hold, {0.5, 0.0});
+  const Catch c = measure_catch(net, target, *crossing, hold, {{0.5, 0.0}, {}});
   const double falling = std::sqrt(2.0 * kGravity * 2.0);
   EXPECT_NEAR(c.angle, std::atan(1.5 / falling), 1e-9);
   EXPECT_NEAR(c.speed, std::hypot(1.5, falling), 1e-9);
   EXPECT_NEAR(c.rim_margin, 0.9 - 0.08 - 0.02, 1e-9);
   EXPECT_NEAR(c.contact_margin, 0.9 - c.depth * 1.5 / falling - 0.08 - 0.02, 1e-9);
+}
+
+TEST(MeasureCatch, AnObjectInANetThatSpeedsUpWeighsBackwards) {
+  const Net net = net_of(regular_polygon(4, std::sqrt(2.0)));
+  Target target;
+  target.position = {0.0, 0.0, 3.0};
+  const auto crossing = Flight(target).crossing(net.rim());
+  std::vector<Vec2> hold = regular_polygon(4, 0.9 * std::sqrt(2.0), 0.25 * std::numbers::pi);
+  for (Vec2& a : hold) a.x += 0.3;  // the edge behind is nearer
+  const Catch even = measure_catch(net, target, *crossing, hold, {});
+  EXPECT_NEAR(even.contact_margin, 0.6 - 0.08, 1e-9);
+  const Catch faster = measure_catch(net, target, *crossing, hold, {{}, {2.0, 0.0}});
+  EXPECT_NEAR(faster.contact_margin, 0.6 - faster.depth * 2.0 / kGravity - 0.08, 1e-9);
+  EXPECT_EQ(faster.rim_margin, even.rim_margin);
+  // Nothing is gained by braking: it meets the net before it is moved.
+  EXPECT_NEAR(measure_catch(net, target, *crossing, hold, {{}, {-2.0, 0.0}}).contact_margin, 0.6 - 0.08,
+              1e-9);
 }
 
 TEST(MeasureCatch, IsTheSameFromAMovingFrame) {
@@ -84,8 +101,8 @@ TEST(MeasureCatch, IsTheSameFromAMovingFrame) {
     const auto b = Flight(drifting).crossing(1.0);
     std::vector<Vec2> moved = hold;
     for (Vec2& p : moved) p += b->state.time * drift;
-    const Catch c = measure_catch(net, target, *a, hold, {0.3, 0.1});
-    const Catch d = measure_catch(net, drifting, *b, moved, Vec2{0.3, 0.1} + drift);
+    const Catch c = measure_catch(net, target, *a, hold, {{0.3, 0.1}, {}});
+    const Catch d = measure_catch(net, drifting, *b, moved, {Vec2{0.3, 0.1} + drift, {}});
     EXPECT_NEAR(c.rim_margin, d.rim_margin, 1e-9) << "round " << round << ", seed " << kSeed;
     EXPECT_NEAR(c.contact_margin, d.contact_margin, 1e-9);
     EXPECT_NEAR(c.angle, d.angle, 1e-9);

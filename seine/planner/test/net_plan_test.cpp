@@ -43,11 +43,15 @@ void expect_carried(const world::Scenario& scenario, const traj::TeamTrajectory&
     const auto crossing = net::Flight(target).crossing(net.rim());
     ASSERT_TRUE(crossing.has_value());
     const double t = crossing->state.time;
-    const auto before = ring_at(scenario, plan, t - 1e-4), after = ring_at(scenario, plan, t + 1e-4);
-    Vec2 velocity;
-    for (std::size_t k = 0; k < before.size(); ++k)
-      velocity += (after[k] - before[k]) / (2e-4 * static_cast<double>(before.size()));
-    const net::Catch c = net::measure_catch(net, target, *crossing, ring_at(scenario, plan, t), velocity);
+    const auto before = ring_at(scenario, plan, t - 1e-3), now = ring_at(scenario, plan, t),
+               after = ring_at(scenario, plan, t + 1e-3);
+    net::Motion motion;
+    for (std::size_t k = 0; k < before.size(); ++k) {
+      const double share = 1.0 / static_cast<double>(before.size());
+      motion.velocity += (share / 2e-3) * (after[k] - before[k]);
+      motion.acceleration += (share / 1e-6) * (after[k] - 2.0 * now[k] + before[k]);
+    }
+    const net::Catch c = net::measure_catch(net, target, *crossing, now, motion);
     EXPECT_GE(c.rim_margin, net::kRimMargin - 1e-3);
     EXPECT_GE(c.contact_margin, net::kContactMargin - 1e-3);
     EXPECT_GE(c.opening, net::kLeastOpening - 1e-3);

@@ -55,7 +55,8 @@ void make_net(Rng& rng, Team& team) {
   }
   CatchTask c;
   c.time = 1.7, c.point = {1.6 + rng.uniform(-0.2, 0.2), 0.3}, c.margin = 0.9;
-  c.contact_delay = 0.1, c.contact_margin = 0.8, c.velocity = {3.0, -2.0}, c.most_sideways = 1.0;
+  c.contact_delay = 0.1, c.contact_margin = 0.8, c.lean = 0.4, c.velocity = {3.0, -2.0},
+  c.most_sideways = 1.0;
   c.least_opening = 1.4, c.held_opening = 1.3, c.hold = 0.5;
   c.least_spread = 1.9, c.most_radius = 0.8;
   team.net.net.stretch = 0.7;
@@ -145,6 +146,7 @@ TEST(NetTerms, EveryTermIsFelt) {
   felt("holding", [](Team& t) { t.net.holding_reserve = 0.0; });
   felt("rim margin", [](Team& t) { t.net.catches[0].margin = -5.0; });
   felt("contact margin", [](Team& t) { t.net.catches[0].contact_margin = -5.0; });
+  felt("lean", [](Team& t) { t.net.catches[0].lean = 0.0; });
   felt("sideways", [](Team& t) { t.net.catches[0].most_sideways = 1e9; });
   felt("opening", [](Team& t) { t.net.catches[0].least_opening = 0.0; });
   felt("held opening", [](Team& t) { t.net.catches[0].held_opening = 0.0; });

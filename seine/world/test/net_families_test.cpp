@@ -112,7 +112,7 @@ TEST(Throw, CanBeCaught) {
           const Vec2 offset = 0.008 * place * geom::unit(2.4 * place) + at - from;
           std::vector<Vec2> hold;
           for (const Vec2 corner : corners(s)) hold.push_back(from + scale / 0.86 * (corner - from) + offset);
-          const net::Catch c = net::measure_catch(*s.net, target, *crossing, hold, speed * direction);
+          const net::Catch c = net::measure_catch(*s.net, target, *crossing, hold, {speed * direction, {}});
           caught = c.rim_margin >= net::kRimMargin && c.contact_margin >= net::kContactMargin &&
                    c.angle <= net::kMaxAngle && c.bottom >= s.net->clearance &&
                    c.speed <= net::speed_limit(c.depth, target.radius, s.net->rebound);
