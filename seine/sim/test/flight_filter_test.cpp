@@ -17,35 +17,6 @@ namespace {
 using geom::Vec3;
 
 constexpr std::uint64_t kSeed = 41;
-constexpr std::array kParts{0.3, 0.5, 0.7};
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
-
-struct Errors {
-  std::array<double, 3> filter{}, line{};  // mm, medians after 30, 50, 70 % of the flight
-};
-
-// Error at the last sample when only the first part of the track is known.
-Errors errors_of(const std::vector<Track>& tracks, double noise) {
-  Errors errors;
-  for (std::size_t p = 0; p < kParts.size(); ++p) {
-    std::vector<double> filter, line;
-    for (const Track& track : tracks) {
-      const auto count = static_cast<std::size_t>(kParts[p] * static_cast<double>(track.size()));
-      FlightFilter seen({.noise = noise});
-      for (std::size_t i = 0; i < count; ++i) seen.observe(track[i].time, track[i].position);
-      const Sight& last = track.back();
-      filter.push_back(1e3 * norm(seen.position_at(last.time) - last.position));
-      line.push_back(1e3 * norm(line_fit(track, count, last.time) - last.position));
-    }
-    errors.filter[p] = median(filter);
-    errors.line[p] = median(line);
-  }
-  return errors;
-}
 
 void expect_better(const char* name, const std::vector<Track>& tracks, double noise,
                    const std::array<double, 3>& published) {

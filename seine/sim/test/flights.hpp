@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -10,6 +12,7 @@
 
 #include "seine/geom/vec3.hpp"
 #include "seine/net/flight.hpp"
+#include "seine/sim/flight_filter.hpp"
 
 namespace seine::sim {
 
@@ -88,6 +91,36 @@ inline geom::Vec3 line_fit(const Track& track, std::size_t count, double time) {
   const auto fallen = [](double at) { return 0.5 * net::kGravity * at * at; };
   return {fit([](const Sight& s) { return s.position.x; }), fit([](const Sight& s) { return s.position.y; }),
           fit([&](const Sight& s) { return s.position.z + fallen(s.time); }) - fallen(time)};
+}
+
+/// How much of a flight is seen before its end is foretold.
+inline constexpr std::array kParts{0.3, 0.5, 0.7};
+
+/// Medians over many flights of the error at the last sample, mm, for each of kParts.
+struct Errors {
+  std::array<double, 3> filter{}, line{};
+};
+
+inline Errors errors_of(const std::vector<Track>& tracks, double noise) {
+  const auto median = [](std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    return values[values.size() / 2];
+  };
+  Errors errors;
+  for (std::size_t p = 0; p < kParts.size(); ++p) {
+    std::vector<double> filter, line;
+    for (const Track& track : tracks) {
+      const auto count = static_cast<std::size_t>(kParts[p] * static_cast<double>(track.size()));
+      FlightFilter seen({.noise = noise});
+      for (std::size_t i = 0; i < count; ++i) seen.observe(track[i].time, track[i].position);
+      const Sight& last = track.back();
+      filter.push_back(1e3 * norm(seen.position_at(last.time) - last.position));
+      line.push_back(1e3 * norm(line_fit(track, count, last.time) - last.position));
+    }
+    errors.filter[p] = median(filter);
+    errors.line[p] = median(line);
+  }
+  return errors;
 }
 
 }  // namespace seine::sim
