@@ -104,9 +104,10 @@ void Conductor::weigh(double time, const std::vector<net::Target>& in_the_air) {
   const Candidate candidate = *std::exchange(candidate_, std::nullopt);
   if (candidate.late) {
     ++late_;
-    news_.push_back("a plan came too late and is not used");
+    if (!std::exchange(was_late_, true)) news_.push_back("a new plan came too late and is not used");
     return;
   }
+  was_late_ = false;
   if (!candidate.answer.certified) return;
   const Worth now = worth_of(scenario_, plan_, begin_, in_the_air);
   const Worth then = worth_of(scenario_, candidate.answer.plan, candidate.begin, in_the_air);

@@ -54,6 +54,7 @@ class Conductor {
   bool stopping_ = false;
   std::optional<std::size_t> silent_;  // the car that does not answer
   std::optional<Candidate> candidate_;
+  bool was_late_ = false;  // the last answer
   double next_ask_ = 0.0;  // s
   int adopted_ = 0, asked_ = 0, late_ = 0;
   std::vector<std::string> news_;

@@ -84,6 +84,31 @@ TEST(Drive, SolvesThatGoOnFailingStopTheTeam) {
   EXPECT_GT(result.min_clearance, 0.0);
 }
 
+// A stop slows the common clock: the team passes only through formations that the certificate has seen, so
+// that what the certificate promises of them holds on the way to a stand.
+void expect_certified_stop(const Task& task, double blind_from) {
+  sim::SimulationOptions options;
+  options.faults.lost_fixes = {
+      {0, blind_from, 99.0}};  // the others stop for a car that is blind for a second
+  const sim::SimulationResult planned = run(task, {}), stopped = run(task, options);
+  ASSERT_TRUE(stopped.stopped);
+  EXPECT_LT(stopped.tracking_worst, 0.1) << "along its own way, the blind one by its wheels";
+  EXPECT_GE(stopped.min_clearance, planned.min_clearance - 0.01);
+  EXPECT_LE(stopped.worst_stretch, planned.worst_stretch + 0.01);
+  EXPECT_GE(stopped.min_clearance, task.scenario.margins.robot - 0.01);
+  if (task.scenario.net) {
+    EXPECT_LE(stopped.worst_stretch, task.scenario.net->stretch + 0.005);
+  }
+}
+
+TEST(Drive, AStopKeepsWhatTheCertificatePromises) {
+  const Task many = planned(world::generate(world::Family::random, 8, 4));
+  for (const double from : {0.2, 1.1, 2.4}) {
+    expect_certified_stop(a_throw(), from);
+    expect_certified_stop(many, from);
+  }
+}
+
 TEST(Drive, ANewPlanStartsWhereTheOldOneIsAndIsCertified) {
   const Task& task = a_throw();
   sim::Situation situation{task.scenario, task.planned.plan, 0.3, 5.0};
