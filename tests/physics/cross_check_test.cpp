@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdio>
 
 #include "seine/sim/drops.hpp"
 #include "tests/physics/mujoco_net.hpp"
@@ -41,6 +42,8 @@ TEST_P(TwoEngines, HangAnObjectAtTheSameHeight) {
     physics->advance(corners, 1.5);
   }
   const double formula = net.rim() - net::loaded_depth(net, on_ground(corners));
+  std::printf("%d corners: lowest point of the net by the formula %.3f m, ours %.3f m, MuJoCo %.3f m\n",
+              GetParam(), formula, lowest(ours), lowest(theirs));
   EXPECT_NEAR(lowest(ours), formula, 0.03);
   EXPECT_NEAR(lowest(theirs), formula, 0.09);
   EXPECT_NEAR(ours.ball(0).position.z, theirs.ball(0).position.z, 0.07);
@@ -57,6 +60,8 @@ TEST_P(TwoEngines, AgreeOnWhatIsCaught) {
     CordNet our = ours;
     MujocoNet their = theirs;
     const CatchWatch a = watch_drop(our, corners, drop), b = watch_drop(their, corners, drop);
+    std::printf("%d corners, %.1f m/s: the fall ends at %.3f m, in MuJoCo at %.3f m\n", GetParam(),
+                drop.measured.speed, a.lowest(), b.lowest());
     EXPECT_EQ(a.fate(), Fate::caught) << "drop " << i << ", seed " << kSeed;
     EXPECT_EQ(b.fate(), Fate::caught) << "drop " << i << ", seed " << kSeed;
     EXPECT_NEAR(a.lowest(), b.lowest(), 0.09) << "where the fall ends";
