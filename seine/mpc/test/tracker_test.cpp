@@ -8,6 +8,7 @@
 #include "seine/base/error.hpp"
 #include "seine/base/rng.hpp"
 #include "seine/mpc/test/drive.hpp"
+#include "seine/mpc/test/effort.hpp"
 
 namespace seine::mpc {
 namespace {
@@ -214,7 +215,7 @@ TEST(Tracker, LimitsHoldToTheBitWhateverHappens) {
   vehicle::Model model = kCar;
   model.limits.steering_rate = 2.0;
   model.limits.reverse_speed = 1.0;
-  for (int run = 0; run < 20; ++run) {
+  for (int run = 0; run < effort(20, 2); ++run) {
     Options options;
     options.acceleration_change = 0.3;
     Tracker tracker(model, options);

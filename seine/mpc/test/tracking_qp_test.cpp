@@ -6,6 +6,7 @@
 
 #include "seine/base/rng.hpp"
 #include "seine/mpc/test/drive.hpp"
+#include "seine/mpc/test/effort.hpp"
 
 namespace seine::mpc {
 namespace {
@@ -177,7 +178,7 @@ void has_a_solution_from_any_state(double lag) {
   options.lag = lag;
   TrackingQp qp(small_car(), options);
   std::unique_ptr<optim::QpSolver> solver;
-  for (int i = 0; i < 300; ++i) {
+  for (int i = 0; i < effort(300, 30); ++i) {
     const std::vector<Sample> reference = wavy_reference(rng, options.horizon + 1);
     const State now{10 * rng.normal(), 10 * rng.normal(), rng.uniform(-3, 3), 4 * rng.normal()};
     qp.set(now, {rng.uniform(-3, 3), rng.uniform(-0.7, 0.7)}, reference);

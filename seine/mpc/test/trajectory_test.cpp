@@ -5,6 +5,7 @@
 
 #include "seine/base/rng.hpp"
 #include "seine/mpc/test/drive.hpp"
+#include "seine/mpc/test/effort.hpp"
 #include "seine/traj/minco.hpp"
 
 namespace seine::mpc {
@@ -63,7 +64,7 @@ TEST(Tracker, FollowsManoeuvresWithGearChangesAndStopsWhereTheyEnd) {
   Rng rng(kSeed);
   double worst = 0.0, worst_heading = 0.0, worst_end = 0.0, sum = 0.0;
   int count = 0;
-  for (int i = 0; i < 30; ++i) {
+  for (int i = 0; i < effort(30, 5); ++i) {
     const traj::RobotTrajectory trajectory = manoeuvre(rng);
     Tracker tracker(kCar);
     const Course course = course_of(trajectory, kCar.wheelbase);
@@ -82,8 +83,8 @@ TEST(Tracker, FollowsManoeuvresWithGearChangesAndStopsWhereTheyEnd) {
     worst_end = std::max(worst_end, std::hypot(state.x - goal.x, state.y - goal.y));
     EXPECT_LT(std::abs(state.speed), 1e-3);
   }
-  std::printf("30 manoeuvres: %.1e m rms, worst %.1e m, %.1e rad; at rest %.1e m off\n",
-              std::sqrt(sum / count), worst, worst_heading, worst_end);
+  std::printf("manoeuvres: %.1e m rms, worst %.1e m, %.1e rad; at rest %.1e m off\n", std::sqrt(sum / count),
+              worst, worst_heading, worst_end);
   EXPECT_LT(worst, 0.01) << "seed " << kSeed;
   EXPECT_LT(worst_heading, 0.02) << "seed " << kSeed;
   EXPECT_LT(worst_end, 2e-3) << "seed " << kSeed;
@@ -91,7 +92,7 @@ TEST(Tracker, FollowsManoeuvresWithGearChangesAndStopsWhereTheyEnd) {
 
 TEST(Tracker, CatchesUpWithAManoeuvreFromBesideIt) {
   Rng rng(kSeed + 1);
-  for (int i = 0; i < 20; ++i) {
+  for (int i = 0; i < effort(20, 3); ++i) {
     const traj::RobotTrajectory trajectory = manoeuvre(rng);
     Tracker tracker(kCar);
     const Course course = course_of(trajectory, kCar.wheelbase);

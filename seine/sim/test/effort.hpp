@@ -4,7 +4,7 @@ namespace seine::sim {
 
 /// How often something is tried: under the sanitizers, where all takes ten to thirty times as long and it is
 /// memory that is looked at, less often than otherwise.
-constexpr int effort(int usual, [[maybe_unused]] int sanitized) {
+constexpr int effort([[maybe_unused]] int usual, [[maybe_unused]] int sanitized) {
 #ifdef SEINE_SANITIZED
   return sanitized;
 #else
