@@ -4,12 +4,15 @@
 #include <iostream>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "apps/seine/command.hpp"
 #include "apps/seine/progress_line.hpp"
 #include "apps/seine/summary.hpp"
+#include "seine/base/error.hpp"
+#include "seine/baseline/letter/letter.hpp"
 #include "seine/io/plan_file.hpp"
 #include "seine/io/report.hpp"
 #include "seine/io/scenario_file.hpp"
@@ -25,6 +28,7 @@ struct Arguments {
   int threads = 0;
   std::uint64_t seed = 0;
   std::string method = "joint";
+  std::optional<double> cusp_speed;
   std::vector<std::string> without;
 };
 
@@ -47,7 +51,18 @@ planner::Ablation ablation_of(const std::vector<std::string>& without) {
           .cusps = has("cusps")};
 }
 
+planner::PlanResult plan(const world::Scenario& scenario, const Arguments& arguments,
+                         const planner::Options& options) {
+  if (arguments.method == "joint") return planner::plan(scenario, options);
+  baseline::letter::Settings settings;
+  settings.cusp_speed = arguments.cusp_speed.value_or(settings.cusp_speed);
+  return baseline::letter::plan(scenario, options, settings);
+}
+
 int run(const Arguments& arguments, bool json) {
+  if (arguments.cusp_speed && arguments.method != "letter")
+    throw InputError("--cusp-speed belongs to --method letter: cars of the method " + arguments.method +
+                     " come to rest");
   expect_writable(arguments.output);
   const world::Scenario scenario = io::load_scenario(arguments.scenario);
   ProgressLine line;
@@ -59,7 +74,7 @@ int run(const Arguments& arguments, bool json) {
   options.progress = [&line](const planner::Progress& progress) {
     line.update(progress.stage, progress.fraction);
   };
-  const planner::PlanResult result = planner::plan(scenario, options);
+  const planner::PlanResult result = plan(scenario, arguments, options);
   line.clear();
   const bool written = result.certified && !arguments.output.empty();
   if (written) {
@@ -88,9 +103,15 @@ void add_plan(CLI::App& program, Invocation& invocation) {
       ->check(kPositive);
   add_threads(command, arguments->threads);
   add_seed(command, arguments->seed, "for the choices that are drawn");
-  command.add_option("--method", arguments->method, "joint: all cars optimised together")
-      ->check(CLI::IsMember({"joint"}))
+  command
+      .add_option("--method", arguments->method,
+                  "joint: all cars optimised together; letter: the planner of Pei et al. 2024 as printed")
+      ->check(CLI::IsMember({"joint", "letter"}))
       ->capture_default_str();
+  command
+      .add_option("--cusp-speed", arguments->cusp_speed,
+                  "method letter: m/s at starts, stops and gear changes, where it cannot rest (0.24)")
+      ->check(kPositive);
   command
       .add_option("--without", arguments->without,
                   "parts of the method to leave out, to see what they bring: catch, size, topology, "

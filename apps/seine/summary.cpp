@@ -77,6 +77,17 @@ std::string events(const sim::SimulationResult& driven) {
   return text;
 }
 
+/// What a published method says of its own plan; empty for ours.
+std::string claim(const planner::PlanResult& result) {
+  if (!result.claimed) return {};
+  const planner::Quality& quality = result.quality;
+  return "  the method     " +
+         (*result.claimed ? printed("claims success: arrived after %.2f s, %.1f m driven", quality.makespan,
+                                    quality.distance)
+                          : std::string("does not claim success")) +
+         "\n";
+}
+
 }  // namespace
 
 std::string summary(const world::Scenario& scenario, const planner::PlanResult& result) {
@@ -85,14 +96,15 @@ std::string summary(const world::Scenario& scenario, const planner::PlanResult& 
       printed("  planned in     %.3f s  guess %.3f, optimise %.3f, certify %.3f\n", times.compute,
               times.guess, times.corridor + times.optimise, times.certify);
   if (!result.certified) {
-    return "NO PLAN for " + scenario.name + ", " + team(scenario) + ": " + result.reason + "\n" + spent;
+    return "NO PLAN for " + scenario.name + ", " + team(scenario) + ": " + result.reason + "\n" +
+           claim(result) + spent;
   }
   const planner::Quality& quality = result.quality;
   return "CERTIFIED  " + scenario.name + ", " + team(scenario) + "\n" +
          printed("  all arrived    %.2f s, on average %.2f s\n", quality.makespan, quality.mean_travel) +
          printed("  driven         %.1f m, acceleration cost %.1f\n", quality.distance,
                  quality.acceleration_cost) +
-         clearances(scenario, result.certificate) + spent;
+         clearances(scenario, result.certificate) + claim(result) + spent;
 }
 
 std::string summary(const world::Scenario& scenario, const certify::Certificate& certificate) {

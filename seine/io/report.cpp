@@ -11,6 +11,7 @@ namespace {
 
 void add_plan(const world::Scenario& scenario, const planner::PlanResult& result, JsonObject& object) {
   object.add("certified", result.certified);
+  if (result.claimed) object.add("claimed", *result.claimed);
   object.add("reason", result.reason);
   object.add("robots", static_cast<int>(scenario.robots.size()));
   if (result.iterations > 0 || !result.certified) {
@@ -20,7 +21,7 @@ void add_plan(const world::Scenario& scenario, const planner::PlanResult& result
   }
   object.add("certify_s", result.times.certify);
   object.add("iterations", result.iterations);
-  if (!result.certified) return;
+  if (!result.certified && !result.claimed.value_or(false)) return;
   object.add("makespan_s", result.quality.makespan);
   object.add("mean_travel_s", result.quality.mean_travel);
   object.add("distance_m", result.quality.distance);

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 
 #include "seine/certify/certificate.hpp"
@@ -59,7 +60,9 @@ struct Quality {
 struct PlanResult {
   bool certified = false;
   std::string reason = "not run";  ///< empty when certified
-  traj::TeamTrajectory plan;       ///< only meaningful when certified
+  /// Whether a published method calls itself successful, whatever the certificate says; absent for ours.
+  std::optional<bool> claimed;
+  traj::TeamTrajectory plan;  ///< only meaningful when certified or claimed
   certify::Certificate certificate;
   Quality quality;
   Times times;
