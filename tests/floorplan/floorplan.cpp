@@ -58,9 +58,20 @@ std::string head(const std::string& path) {
   return path.substr(0, path.find('/'));
 }
 
-std::string room_of_include(const std::string& path) {
+/// The room a file under seine/ is in: "geom", or "baseline/letter" where that is a room of the plan.
+std::string room_of_include(const std::string& path, const FloorPlan& plan) {
   const std::size_t slash = path.find('/');
-  return slash == std::string::npos ? std::string() : head(path.substr(slash + 1));
+  if (slash == std::string::npos) return {};
+  const std::string inside = path.substr(slash + 1), first = head(inside);
+  const std::string nested = inside.substr(0, inside.find('/', std::min(first.size() + 1, inside.size())));
+  return plan.uses.contains(nested) ? nested : first;
+}
+
+/// Whether a folder under seine/ is no room but a wing: a folder of rooms.
+bool is_wing(const std::string& folder, const FloorPlan& plan) {
+  return !plan.uses.contains(folder) &&
+         std::any_of(plan.rooms.begin(), plan.rooms.end(),
+                     [&](const auto& room) { return room.starts_with(folder + "/"); });
 }
 
 /// Collects complaints about one folder: a room, or a part of the roof.
@@ -102,7 +113,7 @@ class Inspector {
     if (of_roof)
       return roof && top == name ? exists(include) : "\"" + include.path + "\" is roof: nothing includes it";
     if (top != "seine") return "\"" + include.path + "\" is no part of the house";
-    const std::string used = room_of_include(include.path);
+    const std::string used = room_of_include(include.path, plan_);
     if (!plan_.uses.contains(used)) return "\"" + include.path + "\": there is no room " + used;
     if (!roof && used != name && !plan_.uses.at(name).contains(used)) {
       return "room " + name + " may not include room " + used;
@@ -123,8 +134,8 @@ class Inspector {
 };
 
 /// Folders and files where no folder or file should be.
-void inspect_layout(const fs::path& room, const FloorPlan& plan, Inspector& inspector) {
-  const std::string name = room.filename().string();
+void inspect_layout(const fs::path& room, const std::string& name, const FloorPlan& plan,
+                    Inspector& inspector) {
   if (!plan.uses.contains(name)) {
     inspector.complain(room, 0, "the folder is not on the floor plan");
     return;
@@ -132,6 +143,22 @@ void inspect_layout(const fs::path& room, const FloorPlan& plan, Inspector& insp
   for (const auto& entry : fs::directory_iterator(room)) {
     if (entry.is_directory() && entry.path().filename() != "test") {
       inspector.complain(entry.path(), 0, "a room has no folders but test");
+    }
+  }
+}
+
+/// A folder under seine/: a room, or with `wing` "baseline/" one of its rooms.
+void inspect_folder(const fs::path& folder, const std::string& wing, const FloorPlan& plan,
+                    Inspector& inspector) {
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string name = wing + entry.path().filename().string();
+    if (!entry.is_directory()) {
+      inspector.complain(entry.path(), 0, "a file outside every room");
+    } else if (is_wing(name, plan)) {
+      inspect_folder(entry.path(), name + "/", plan, inspector);
+    } else {
+      inspect_layout(entry.path(), name, plan, inspector);
+      if (plan.uses.contains(name)) inspector.inspect(entry.path(), name, false);
     }
   }
 }
@@ -176,17 +203,7 @@ std::vector<std::string> offences(const fs::path& root) {
   Offences found;
   const FloorPlan plan = read_floor_plan(root, found);
   Inspector inspector(root, plan, found);
-  if (fs::exists(root / "seine")) {
-    for (const auto& entry : fs::directory_iterator(root / "seine")) {
-      if (!entry.is_directory()) {
-        inspector.complain(entry.path(), 0, "a file outside every room");
-        continue;
-      }
-      inspect_layout(entry.path(), plan, inspector);
-      const std::string room = entry.path().filename().string();
-      if (plan.uses.contains(room)) inspector.inspect(entry.path(), room, false);
-    }
-  }
+  if (fs::exists(root / "seine")) inspect_folder(root / "seine", "", plan, inspector);
   for (const std::string_view roof : kRoof) {
     if (fs::exists(root / roof)) inspector.inspect(root / roof, std::string(roof), true);
   }

@@ -115,6 +115,20 @@ TEST_F(PlantedOffence, AFolderInsideARoom) {
   expect_offence("a room has no folders but test");
 }
 
+TEST_F(PlantedOffence, ARoomInAWing) {
+  write("tools/floorplan.txt",
+        "base:\nmath: base\ngeom: base\nio: base geom\nwing/east: base\nwing/west: base\n");
+  write("seine/wing/west/door.hpp", "#include \"seine/base/error.hpp\"\n");
+  write("seine/wing/east/door.hpp",
+        "#include \"seine/base/error.hpp\"\n#include \"seine/wing/east/door.hpp\"\n");
+  ASSERT_EQ(joined(offences(root_)), "");
+  write("seine/wing/east/sibling.hpp", "#include \"seine/wing/west/door.hpp\"\n");
+  expect_offence("seine/wing/east/sibling.hpp:1: room wing/east may not include room wing/west");
+  write("seine/wing/east/sibling.hpp", "\n");
+  write("seine/wing/north/door.hpp", "\n");
+  expect_offence("seine/wing/north:0: the folder is not on the floor plan");
+}
+
 TEST_F(PlantedOffence, AnUmbrellaHeader) {
   write("seine/seine.hpp", "#include \"seine/geom/shape.hpp\"\n");
   expect_offence("a file outside every room");
