@@ -25,13 +25,12 @@ Problem::Problem(const TeamTask& task, const Settings& settings, Workers& worker
       workers_(workers),
       robots_(terms_of(task, settings)),
       team_(robots_, task.robot_clearance, task.net, settings),
-      shares_(kShares),
       costs_(robots_.size()) {
   for (const RobotTerms& robot : robots_) {
     offsets_.push_back(offsets_.back() + robot.curve().variables());
     total_.push_back(robot.curve().zero_gradient());
   }
-  for (Share& share : shares_) share.gradients = total_;
+  for (int s = 0; s < kShares; ++s) shares_.push_back({total_, Ring(robots_.size())});
 }
 
 std::vector<double> Problem::initial() const {
@@ -51,9 +50,8 @@ double Problem::evaluate(std::span<const double> x, std::span<double> gradient) 
     Share& share = shares_[static_cast<std::size_t>(s)];
     share.worst = {};
     for (CurveGradient& g : share.gradients) g.clear();
-    for (int k = s; k < count; k += kShares)
-      team_.add(static_cast<std::size_t>(k), share.gradients, share.worst);
-    if (s == 0) cost = team_.add_moments(share.gradients);
+    for (int k = s; k < count; k += kShares) team_.add(static_cast<std::size_t>(k), share);
+    if (s == 0) cost = team_.add_moments(share);
   });
   workers_.run(count, [&](int k) {
     const auto i = static_cast<std::size_t>(k);

@@ -50,10 +50,6 @@ class Problem {
 
   // Robots are dealt out to this many shares, each with its own gradients of all robots.
   static constexpr int kShares = 8;
-  struct Share {
-    std::vector<CurveGradient> gradients;  // a robot
-    Worst worst{};
-  };
 
   Settings settings_;
   Workers& workers_;

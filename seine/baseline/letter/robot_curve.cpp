@@ -60,6 +60,7 @@ RobotCurve::RobotCurve(const RobotTask& task) {
     segments_.push_back(s);
   }
   coefficients_.resize(index(coefficients));
+  polynomials_.resize(index(coefficients / 12));
 }
 
 void RobotCurve::initial(std::span<double> x) const {
@@ -97,19 +98,24 @@ void RobotCurve::solve(const Segment& s, std::span<const double> x) {
     z[0] = of(s.from.position()), z[1] = of(v0), z[2] = 0.0;
     for (int j = 1; j < s.pieces; ++j) z[index(j + 2)] = x[index(s.waypoints + 2 * (j - 1) + axis)];
     z[end] = of(s.to.position()), z[end + 1] = of(v1), z[end + 2] = 0.0;
+    const double* const row = &coefficients_[index(s.coefficients + 6 * axis * s.pieces)];
     minco.coefficients(z, &coefficients_[index(s.coefficients + 6 * axis * s.pieces)], s.pieces);
+    for (int j = 0; j < s.pieces; ++j) {
+      Polynomial& polynomial = polynomials_[index(s.coefficients / 12 + j)];
+      for (int k = 0; k < 6; ++k) (axis == 0 ? polynomial.x : polynomial.y)[index(k)] = row[k * s.pieces + j];
+    }
   }
 }
 
 Place RobotCurve::place(int segment, int piece, const Quadrature::Node& node) const {
   const Segment& s = at(segment);
+  const Polynomial& c = polynomial(s, piece);
   Place place{.segment = segment, .piece = piece, .w = node.w};
   const double per = 1.0 / s.h;
-  for (int k = 0; k < 6; ++k) {
-    const Vec2 c{coefficient(s, k, piece), coefficient(s, 6 + k, piece)};
-    place.position += node.power[index(k)] * c;
-    place.velocity += node.first[index(k)] * c;
-    place.acceleration += node.second[index(k)] * c;
+  for (std::size_t k = 0; k < 6; ++k) {
+    place.position += node.power[k] * Vec2{c.x[k], c.y[k]};
+    place.velocity += node.first[k] * Vec2{c.x[k], c.y[k]};
+    place.acceleration += node.second[k] * Vec2{c.x[k], c.y[k]};
   }
   place.velocity *= per;
   place.acceleration *= per * per;
@@ -123,11 +129,21 @@ Place RobotCurve::locate(double t) const {
   const int last = static_cast<int>(segments_.size()) - 1;
   while (segment < last && t >= at(segment + 1).begin) ++segment;
   const Segment& s = at(segment);
-  const double rho = (t - s.begin) / s.h;
-  const int piece = std::clamp(static_cast<int>(rho), 0, s.pieces - 1);
-  Place result = place(segment, piece, basis_at(std::clamp(rho - piece, 0.0, 1.0)));
-  result.arrived = t >= end_;
-  return result;
+  const double per = 1.0 / s.h, rho = (t - s.begin) * per;
+  Place place{.segment = segment, .piece = std::clamp(static_cast<int>(rho), 0, s.pieces - 1)};
+  place.w = std::clamp(rho - place.piece, 0.0, 1.0);
+  const Polynomial& c = polynomial(s, place.piece);
+  const auto horner = [w = place.w](const std::array<double, 6>& a, double& value, double& slope) {
+    value = a[0] + w * (a[1] + w * (a[2] + w * (a[3] + w * (a[4] + w * a[5]))));
+    slope = a[1] + w * (2.0 * a[2] + w * (3.0 * a[3] + w * (4.0 * a[4] + w * 5.0 * a[5])));
+  };
+  horner(c.x, place.position.x, place.velocity.x);
+  horner(c.y, place.position.y, place.velocity.y);
+  place.velocity *= per;
+  place.speed = geom::norm(place.velocity);
+  place.direction = (s.gear / place.speed) * place.velocity;
+  place.arrived = t >= end_;
+  return place;
 }
 
 geom::Box RobotCurve::hull(int segment, int piece) const {
@@ -135,11 +151,10 @@ geom::Box RobotCurve::hull(int segment, int piece) const {
   static constexpr double kShare[6][6] = {{1, 0, 0, 0, 0, 0},         {1, 0.2, 0, 0, 0, 0},
                                           {1, 0.4, 0.1, 0, 0, 0},     {1, 0.6, 0.3, 0.1, 0, 0},
                                           {1, 0.8, 0.6, 0.4, 0.2, 0}, {1, 1, 1, 1, 1, 1}};
-  const Segment& s = at(segment);
+  const Polynomial& c = polynomial(at(segment), piece);
   std::array<Vec2, 6> control{};
   for (std::size_t i = 0; i < 6; ++i)
-    for (int k = 0; k <= static_cast<int>(i); ++k)
-      control[i] += kShare[i][k] * Vec2{coefficient(s, k, piece), coefficient(s, 6 + k, piece)};
+    for (std::size_t k = 0; k <= i; ++k) control[i] += kShare[i][k] * Vec2{c.x[k], c.y[k]};
   return geom::bounding_box(control);
 }
 
@@ -187,9 +202,11 @@ double RobotCurve::pull_at_time(const Place& place, Vec2 g_position, Vec2 g_dire
                                 CurveGradient& gradient) const {
   const Vec2 g_velocity = (at(place.segment).gear / place.speed) *
                           (g_direction - geom::dot(g_direction, place.direction) * place.direction);
-  pull(place, basis_at(place.w), g_position, g_velocity, {}, gradient);
+  const Quadrature::Node node = basis_at(place.w);
+  pull(place, node, g_position, g_velocity, {}, gradient);
   if (place.arrived) return 0.0;
-  const double g_time = geom::dot(g_position, place.velocity) + geom::dot(g_velocity, place.acceleration);
+  const Vec2 acceleration = this->place(place.segment, place.piece, node).acceleration;
+  const double g_time = geom::dot(g_position, place.velocity) + geom::dot(g_velocity, acceleration);
   // At a fixed time longer pieces mean an earlier parameter.
   pull_time(place.segment, place.piece + place.w, -g_time, gradient);
   return g_time;
@@ -232,10 +249,8 @@ traj::RobotTrajectory RobotCurve::trajectory() const {
   for (const Segment& s : segments_) {
     traj::Segment segment{.gear = s.gear, .piece_duration = s.h};
     for (int j = 0; j < s.pieces; ++j) {
-      std::array<traj::Quintic, 2> curve;
-      for (int k = 0; k < 6; ++k)
-        curve[0][index(k)] = coefficient(s, k, j), curve[1][index(k)] = coefficient(s, 6 + k, j);
-      segment.curve.push_back(curve);
+      const Polynomial& c = polynomial(s, j);
+      segment.curve.push_back({c.x, c.y});
       segment.progress.push_back({static_cast<double>(j), 1.0, 0.0, 0.0, 0.0, 0.0});
     }
     result.segments.push_back(std::move(segment));

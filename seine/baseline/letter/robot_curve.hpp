@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -14,10 +15,11 @@ namespace seine::baseline::letter {
 struct Place {
   int segment = 0, piece = 0;
   double w = 0.0;  ///< in the piece
-  geom::Vec2 position, velocity, acceleration;
-  geom::Vec2 direction;  ///< unit heading, η σ̇ / |σ̇|
-  double speed = 0.0;    ///< |σ̇|, m/s
-  bool arrived = false;  ///< stands at its end: nothing depends on the time
+  geom::Vec2 position, velocity;
+  geom::Vec2 acceleration;  ///< zero where only the pose is asked for
+  geom::Vec2 direction;     ///< unit heading, η σ̇ / |σ̇|
+  double speed = 0.0;       ///< |σ̇|, m/s
+  bool arrived = false;     ///< stands at its end: nothing depends on the time
 };
 
 /// ∂J/∂ of a robot's coefficients and piece durations.
@@ -46,7 +48,7 @@ class RobotCurve {
   double begin(int segment, int piece) const { return at(segment).begin + piece * at(segment).h; }
   double duration() const { return end_; }
   Place place(int segment, int piece, const Quadrature::Node& node) const;
-  /// At time t of the common clock; beyond the end it stands there. Never before 0.
+  /// The pose at time t of the common clock; beyond the end it stands there. Never before 0.
   Place locate(double t) const;
   /// Contains the positions of a piece.
   geom::Box hull(int segment, int piece) const;
@@ -82,13 +84,18 @@ class RobotCurve {
   };
   const Segment& at(int segment) const { return segments_[static_cast<std::size_t>(segment)]; }
   void solve(const Segment& segment, std::span<const double> x);
-  double coefficient(const Segment& s, int row, int piece) const {
-    return coefficients_[static_cast<std::size_t>(s.coefficients + row * s.pieces + piece)];
+  /// The coefficients of one piece side by side.
+  struct Polynomial {
+    std::array<double, 6> x, y;
+  };
+  const Polynomial& polynomial(const Segment& s, int piece) const {
+    return polynomials_[static_cast<std::size_t>(s.coefficients / 12 + piece)];
   }
 
   std::vector<Segment> segments_;
   std::vector<double> start_;  // values of the variables as the guess has them
   std::vector<double> coefficients_;
+  std::vector<Polynomial> polynomials_;
   int variables_ = 0;
   double end_ = 0.0;
 };

@@ -21,6 +21,7 @@ RobotTerms::RobotTerms(const RobotTask& task, const Settings& settings)
       penalties_(settings),
       curve_(task),
       shape_(task.model.footprint),
+      max_curvature_(task.model.max_curvature()),
       inner_(settings.intervals),
       outer_(settings.end_intervals) {
   for (int s = 0; s < static_cast<int>(curve_.segments()); ++s)
@@ -92,7 +93,7 @@ void RobotTerms::add_limits(Sample& sample) {
     add(Limit::lateral, over, std::abs(cross) / (std::sqrt(v2) * limits.lateral_acceleration) - 1.0, g);
   }
   // κ ≤ κ_max and −κ ≤ κ_max are two limits; only one can be broken at a time.
-  const double most = task_.model.max_curvature();
+  const double most = max_curvature_;
   if (std::abs(cross) > most * v2 * sample.place.speed) {
     const double over = curvature_limit(v, a, cross > 0.0 ? 1.0 : -1.0, most, g);
     add(Limit::curvature, over, over / most, g);

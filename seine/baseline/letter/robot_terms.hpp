@@ -84,6 +84,7 @@ class RobotTerms {
   Penalties penalties_;
   RobotCurve curve_;
   Shape shape_;
+  double max_curvature_;
   Quadrature inner_, outer_;
   std::vector<Sample> samples_;
   std::vector<Span> spans_;

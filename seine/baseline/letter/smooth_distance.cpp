@@ -1,7 +1,6 @@
 #include "seine/baseline/letter/smooth_distance.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -33,18 +32,16 @@ struct Face {
   double gap;   ///< smoothed
   Vec2 normal;  ///< world
   Vec2 corner;  ///< of the other polygon, body frame: the mean by weight
-  bool of_a;
-  std::size_t index;
 };
 
 // −log Σ exp(−α x) / α over the other polygon's corners.
-void smooth_gap(const Shape& own, const Stand& at, const Shape& other, const Stand& there, double alpha,
-                Face& face) {
-  face.normal = turned(at.direction, own.normals[face.index]);
+Face smooth_gap(const Shape& own, const Stand& at, const Shape& other, const Stand& there, std::size_t index,
+                double alpha) {
+  const Vec2 normal = turned(at.direction, own.normals[index]);
   // In the other's body frame a corner costs two products.
-  const Vec2 along = to_body(there.direction, face.normal);
-  const double base = geom::dot(face.normal, there.position - at.position) - own.offsets[face.index];
-  std::array<double, kMostCorners> gaps;
+  const Vec2 along = to_body(there.direction, normal);
+  const double base = geom::dot(normal, there.position - at.position) - own.offsets[index];
+  double gaps[kMostCorners];
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t o = 0; o < other.corners.size(); ++o) {
     gaps[o] = base + geom::dot(along, other.corners[o]);
@@ -57,8 +54,7 @@ void smooth_gap(const Shape& own, const Stand& at, const Shape& other, const Sta
     sum += share;
     corner += share * other.corners[o];
   }
-  face.corner = corner / sum;
-  face.gap = least - std::log(sum) / alpha;
+  return {least - std::log(sum) / alpha, normal, corner / sum};
 }
 
 double hard_gap(const Shape& own, const Stand& at, const Shape& other, const Stand& there,
@@ -70,16 +66,20 @@ double hard_gap(const Shape& own, const Stand& at, const Shape& other, const Sta
   return geom::dot(normal, there.position - at.position) - own.offsets[index] + least;
 }
 
+/// ∂/∂ of one footprint.
+struct OneGradient {
+  Vec2 position, direction;
+};
+
 // gap = n·(p' + R' c − p) − offset with n = R n̂: the offset does not turn.
-void add_gradient(const Face& face, double share, const Shape& own, const Stand& at, const Stand& there,
-                  StandGradient& gradient) {
+void add_gradient(const Face& face, double share, Vec2 own_normal, const Stand& at, const Stand& there,
+                  OneGradient& own, OneGradient& other) {
   const Vec2 n = share * face.normal;
   const Vec2 arm = there.position + turned(there.direction, face.corner) - at.position;
-  const Vec2 own_turn = turning(share * arm, own.normals[face.index]), other_turn = turning(n, face.corner);
-  (face.of_a ? gradient.position_a : gradient.position_b) -= n;
-  (face.of_a ? gradient.position_b : gradient.position_a) += n;
-  (face.of_a ? gradient.direction_a : gradient.direction_b) += own_turn;
-  (face.of_a ? gradient.direction_b : gradient.direction_a) += other_turn;
+  own.position -= n;
+  own.direction += turning(share * arm, own_normal);
+  other.position += n;
+  other.direction += turning(n, face.corner);
 }
 
 }  // namespace
@@ -105,30 +105,29 @@ Shape::Shape(std::span<const Vec2> footprint) : corners(footprint.begin(), footp
 
 double smooth_distance(const Shape& shape_a, const Stand& a, const Shape& shape_b, const Stand& b,
                        double alpha, StandGradient& gradient) {
-  std::array<Face, 2 * kMostCorners> faces;
   const std::size_t of_a = shape_a.normals.size(), count = of_a + shape_b.normals.size();
+  const auto face_of = [&](std::size_t i) {
+    return i < of_a ? smooth_gap(shape_a, a, shape_b, b, i, alpha)
+                    : smooth_gap(shape_b, b, shape_a, a, i - of_a, alpha);
+  };
+  double gaps[2 * kMostCorners];
   double largest = -std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < count; ++i) {
-    Face& face = faces[i];
-    face.of_a = i < of_a;
-    face.index = face.of_a ? i : i - of_a;
-    if (face.of_a)
-      smooth_gap(shape_a, a, shape_b, b, alpha, face);
-    else
-      smooth_gap(shape_b, b, shape_a, a, alpha, face);
-    largest = std::max(largest, face.gap);
+    gaps[i] = face_of(i).gap;
+    largest = std::max(largest, gaps[i]);
   }
   double sum = 0.0;
-  for (std::size_t i = 0; i < count; ++i) sum += std::exp(alpha * (faces[i].gap - largest));
-  gradient = {};
+  for (std::size_t i = 0; i < count; ++i) sum += std::exp(alpha * (gaps[i] - largest));
+  OneGradient g_a, g_b;
   for (std::size_t i = 0; i < count; ++i) {
-    const double share = std::exp(alpha * (faces[i].gap - largest)) / sum;
+    const double share = std::exp(alpha * (gaps[i] - largest)) / sum;
     if (share < 1e-12) continue;  // changes nothing, and costs as much as a face that matters
-    if (faces[i].of_a)
-      add_gradient(faces[i], share, shape_a, a, b, gradient);
+    if (i < of_a)
+      add_gradient(face_of(i), share, shape_a.normals[i], a, b, g_a, g_b);
     else
-      add_gradient(faces[i], share, shape_b, b, a, gradient);
+      add_gradient(face_of(i), share, shape_b.normals[i - of_a], b, a, g_b, g_a);
   }
+  gradient = {g_a.position, g_a.direction, g_b.position, g_b.direction};
   return largest + std::log(sum) / alpha;
 }
 
