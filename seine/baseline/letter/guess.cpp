@@ -130,6 +130,11 @@ RobotTask task_of(const search::Path& path, const world::Scenario& scenario, con
   return task;
 }
 
+bool stands(const Pose2& start, const Pose2& goal) {
+  return geom::norm(goal.position() - start.position()) < 1e-6 &&
+         std::abs(geom::wrap_angle(goal.heading - start.heading)) < 1e-6;
+}
+
 Vec2 attachment_of(const world::Scenario& scenario, std::size_t robot, const Pose2& pose) {
   return pose * scenario.net->attachments[robot].at;
 }
@@ -209,13 +214,13 @@ Guess guess(const world::Scenario& scenario, const world::StaticMap& map, const 
     if (paths[i]) result.robots[i] = task_of(*paths[i], scenario, robot, map, settings);
   });
   for (std::size_t k = 0; k < paths.size(); ++k) {
-    const std::string& name = scenario.robots[k].name;
+    const world::Robot& robot = scenario.robots[k];
     if (!paths[k]) {
-      result.reason = "no path for " + name + " alone";
+      result.reason = "no path for " + robot.name + " alone";
       return result;
     }
-    if (result.robots[k].segments.empty())
-      throw InputError(scenario.name + ": " + name +
+    if (stands(robot.start, ends[k]) || result.robots[k].segments.empty())
+      throw InputError(scenario.name + ": " + robot.name +
                        " has no way to go; the letter's method cannot plan for a car that stands");
   }
   return result;

@@ -26,7 +26,7 @@ struct Settings {
   double smoothing = 200.0;       ///< α of log-sum-exp, 1/m
   double clamp = 0.05;            ///< ε of the clamp of an edge's parameter
   double blend = 0.05;            ///< e of the catch cost, m
-  double centring = 100.0;        ///< w_ce, 1/m
+  double centring = 500.0;        ///< w_ce, 1/m
   double catching = 1000.0;       ///< w_ca, 1/m
   double topology_margin = 0.05;  ///< m inside the line through a ring edge
   double end_weight = 1e4;        ///< of ends outside the delivery region

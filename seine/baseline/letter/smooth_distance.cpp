@@ -139,7 +139,8 @@ bool may_be_near(const Shape& shape_a, const Stand& a, const Shape& shape_b, con
   const Vec2 apart =
       b.position + turned(b.direction, shape_b.middle) - a.position - turned(a.direction, shape_a.middle);
   const double facing = std::max(shape_a.facing, shape_b.facing);
-  return geom::norm(apart) * facing < shape_a.radius + shape_b.radius + wanted;
+  const double near = shape_a.radius + shape_b.radius + wanted;
+  return geom::squared_norm(apart) * facing * facing < near * near;
 }
 
 double hard_distance(const Shape& shape_a, const Stand& a, const Shape& shape_b, const Stand& b) {

@@ -80,6 +80,7 @@ void TeamTerms::add_pair_sample(std::size_t robot, Sample& sample, std::size_t o
                                 Share& share) {
   const Shape &shape_a = robots_[robot].shape(), &shape_b = robots_[other].shape();
   const Place there = robots_[other].curve().locate(sample.t);
+  if (geom::squared_norm(there.position - sample.place.position) > apart.reach * apart.reach) return;
   const Stand a{sample.place.position, sample.place.direction}, b{there.position, there.direction};
   if (!may_be_near(shape_a, a, shape_b, b, apart.wanted)) return;
   const double hard = hard_distance(shape_a, a, shape_b, b);

@@ -12,7 +12,7 @@ namespace {
 using geom::Pose2;
 using geom::Vec2;
 
-constexpr int kSeeds = 8;
+constexpr int kSeeds = 4;
 
 // A wavy segment of `pieces` pieces from a pose, driven in `gear`.
 SegmentTask wavy(Rng& rng, const Pose2& from, int gear, double length, int pieces) {
@@ -119,7 +119,7 @@ TEST(LetterProblem, IsTheSameForAnyNumberOfThreads) {
   for (const int threads : {1, 2, 3}) {
     Workers workers(threads);
     Settings settings = soft();
-    settings.evaluations = 150;
+    settings.evaluations = 60;
     const TeamTask task = busy(3, settings);
     Problem problem(task, settings, workers);
     std::vector<double> x = problem.initial();
