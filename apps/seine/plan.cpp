@@ -38,7 +38,8 @@ is written and the exit status is 1.
 Examples
   seine plan team.yaml -o plan.json
   seine plan team.yaml --deadline 0.5 --json     the best certified plan within half a second, as numbers
-  seine plan map_50by50_obst25_agents10_ex0.yaml   a CL-MAPF instance as it is)";
+  seine plan map_50by50_obst25_agents10_ex0.yaml   a CL-MAPF instance as it is
+  seine plan team.yaml --method letter --json    what the method of Pei et al. claims, and what is proved)";
 
 planner::Ablation ablation_of(const std::vector<std::string>& without) {
   const auto has = [&](const char* part) {

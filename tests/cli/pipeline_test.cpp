@@ -120,6 +120,22 @@ TEST(Pipeline, ANetCatchesWhatIsThrown) {
   EXPECT_EQ(scratch.run("plan s.yaml --without everything").status, 2);
 }
 
+// The letter's own planner stands by a plan that starts and stops at 0.24 m/s; the certificate does not.
+TEST(Pipeline, TheLettersMethodClaimsWhatIsNotCertified) {
+  const Scratch scratch;
+  scratch.write("s.yaml", two_cars());
+  const Outcome plan = scratch.run("plan s.yaml --method letter --json -o p.json");
+  EXPECT_EQ(plan.status, 1) << plan.err;
+  EXPECT_FALSE(scratch.has("p.json"));
+  const json answer = json::parse(plan.out);
+  EXPECT_FALSE(answer.at("certified").get<bool>());
+  EXPECT_TRUE(answer.at("claimed").get<bool>()) << plan.out;
+  EXPECT_TRUE(answer.contains("makespan_s"));
+  EXPECT_NE(scratch.run("plan s.yaml --method letter --cusp-speed 0.1").out.find("claims success"),
+            std::string::npos);
+  EXPECT_FALSE(json::parse(scratch.run("plan s.yaml --json").out).contains("claimed"));
+}
+
 TEST(Pipeline, BenchResumes) {
   const Scratch scratch;
   scratch.write("s.yaml", two_cars());
