@@ -110,8 +110,8 @@ SegmentTask segment_of(const Stretch& stretch, const vehicle::Model& model, cons
   return task;
 }
 
-RobotTask task_of(const search::Path& path, const world::Scenario& scenario, const world::Robot& robot,
-                  const world::StaticMap& map, const Settings& settings) {
+RobotTask task_of(const search::Path& path, const Pose2& end, const world::Scenario& scenario,
+                  const world::Robot& robot, const world::StaticMap& map, const Settings& settings) {
   RobotTask task;
   task.model = scenario.model_of(robot);
   task.free_end = !robot.goal;
@@ -122,8 +122,11 @@ RobotTask task_of(const search::Path& path, const world::Scenario& scenario, con
   // A car that moves at the start keeps its speed if it is not slower than the rest that is none.
   const double start_speed = task.segments.front().gear * robot.start_speed;
   task.segments.front().start_speed = std::max(task.segments.front().start_speed, start_speed);
+  // Whatever was left out, the ends are exact.
   task.segments.front().points.front() = robot.start.position();
   task.segments.front().start_heading = robot.start.heading;
+  task.segments.back().points.back() = end.position();
+  task.segments.back().end_heading = end.heading;
   task.corridor = corridor::build(poses, task.model, map,
                                   {.reach = settings.corridor_reach * task.model.length(),
                                    .clearance = scenario.margins.obstacle + settings.slack});
@@ -211,7 +214,7 @@ Guess guess(const world::Scenario& scenario, const world::StaticMap& map, const 
     options.clearance = scenario.margins.obstacle;
     options.deadline = deadline;
     paths[i] = planners[static_cast<std::size_t>(robot.model)]->plan(robot.start, ends[i], options);
-    if (paths[i]) result.robots[i] = task_of(*paths[i], scenario, robot, map, settings);
+    if (paths[i]) result.robots[i] = task_of(*paths[i], ends[i], scenario, robot, map, settings);
   });
   for (std::size_t k = 0; k < paths.size(); ++k) {
     const world::Robot& robot = scenario.robots[k];
