@@ -42,12 +42,12 @@ bool Tally::within(const certify::Certificate& certificate) const {
   });
 }
 
-void Tally::add(const planner::PlanResult& result) {
+void Tally::add(const planner::PlanResult& result, double seconds) {
   ++asked_;
   const bool stands_by = result.claimed.value_or(result.certified);
   claimed_ += stands_by;
   certified_ += result.certified;
-  compute_.push_back(result.times.compute);
+  compute_.push_back(seconds);
   evaluations_.push_back(result.iterations);
   if (!stands_by) return;
   within_ += within(result.certificate);
@@ -63,7 +63,7 @@ void Tally::add(const planner::PlanResult& result) {
 
 void Tally::print_head() {
   std::printf(
-      "%-26s tasks claimed within certified  compute s       evaluations  travel s         dist. m   accel.\n"
+      "%-26s tasks claimed within certified  CPU s           evaluations  travel s         dist. m   accel.\n"
       "%-26s                                  median    max    median     mean  longest             cost\n",
       "", "");
 }

@@ -16,7 +16,8 @@ class Tally {
   /// @param patience what a continuous check grants the plans in column "within"
   explicit Tally(const baseline::letter::Settings& patience = {}) : patience_(patience) {}
 
-  void add(const planner::PlanResult& result);
+  /// @param seconds CPU time it took
+  void add(const planner::PlanResult& result, double seconds);
   /// Head of the table, in two lines.
   static void print_head();
   /// One line; travel times, distance and cost are means over the plans that the method stands by.
