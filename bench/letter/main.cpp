@@ -44,6 +44,7 @@ void run(const std::string& name, int cases, const Make& make, const Plan& plan,
   }
   std::fprintf(stderr, "\r%60s\r", "");
   tally.print(name);
+  tally.print_catches();
   if (broken) tally.print_broken();
 }
 

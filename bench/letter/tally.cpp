@@ -49,6 +49,10 @@ void Tally::add(const planner::PlanResult& result, double seconds) {
   certified_ += result.certified;
   compute_.push_back(seconds);
   evaluations_.push_back(result.iterations);
+  for (const net::Catch& c : result.certificate.catches) {
+    rim_margin_.push_back(c.rim_margin);
+    opening_.push_back(c.opening);
+  }
   if (!stands_by) return;
   within_ += within(result.certificate);
   ++counted_;
@@ -75,6 +79,11 @@ void Tally::print(const std::string& name) const {
               median(evaluations_), sum_.mean_travel / n, sum_.makespan / n, sum_.distance / n,
               sum_.acceleration_cost / n);
   std::fflush(stdout);
+}
+
+void Tally::print_catches() const {
+  if (rim_margin_.empty()) return;
+  std::printf("    rim margin %.3f m (median), opening %.3f\n", median(rim_margin_), median(opening_));
 }
 
 void Tally::print_broken() const {
