@@ -22,7 +22,7 @@ struct Settings {
   double jerk_weight = 1.0;   ///< W = this times the unit matrix
   double time_weight = 30.0;  ///< w_T
   /// w_d in the order of Limit.
-  std::array<double, kLimits> weight{1e3, 1e3, 1e3, 1e3, 3e4, 3e4, 1e4, 1e4};
+  std::array<double, kLimits> weight{1e3, 1e3, 1e3, 2e3, 3e4, 3e4, 1e4, 1e4};
   double smoothing = 200.0;       ///< α of log-sum-exp, 1/m
   double clamp = 0.05;            ///< ε of the clamp of an edge's parameter
   double blend = 0.05;            ///< e of the catch cost, m
@@ -32,7 +32,7 @@ struct Settings {
   double end_weight = 1e4;        ///< of ends outside the delivery region
   double slack =
       0.01;  ///< m added to every clearance, so that what lies between samples stays outside the margin
-  double piece_length = 1.5;                           ///< car lengths of the guess in one piece
+  double piece_length = 1.2;                           ///< car lengths of the guess in one piece
   double speed_share = 0.8, acceleration_share = 0.6;  ///< of the limits that the guess's timing uses
   double corridor_reach = 3.0;                         ///< car lengths from the guess
 
