@@ -1,5 +1,7 @@
 // The letter's own planner beside Seine on the same tasks: ./dev bench letter-own. Both with one thread, and
 // timed by the CPU's clock, so that other work on the machine does not count.
+#include <unistd.h>
+
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
@@ -35,14 +37,15 @@ planner::PlanResult ours(const world::Scenario& scenario) {
 
 void run(const std::string& name, int cases, const Make& make, const Plan& plan, bool broken) {
   Tally tally;
+  const bool watched = isatty(STDERR_FILENO) != 0;
   for (int seed = 0; seed < cases; ++seed) {
-    std::fprintf(stderr, "\r%-40s %3d of %3d ", name.c_str(), seed + 1, cases);
+    if (watched) std::fprintf(stderr, "\r%-40s %3d of %3d ", name.c_str(), seed + 1, cases);
     const world::Scenario scenario = make(static_cast<std::uint64_t>(seed));
     const std::clock_t begin = std::clock();
     const planner::PlanResult result = plan(scenario);
     tally.add(result, static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
   }
-  std::fprintf(stderr, "\r%60s\r", "");
+  if (watched) std::fprintf(stderr, "\r%60s\r", "");
   tally.print(name);
   tally.print_catches();
   if (broken) tally.print_broken();

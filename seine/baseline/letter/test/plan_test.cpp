@@ -29,7 +29,7 @@ TEST(LetterPlan, StandsByItsPlanThatTheCertificateRefusesForItsRests) {
 
 TEST(LetterPlan, RestsHaveTheCuspSpeed) {
   Settings settings;
-  settings.cusp_speed = 0.1;
+  settings.cusp_speed = 0.1, settings.evaluations = 50;
   const planner::PlanResult result = plan(four_cars(), {}, settings);
   for (const traj::RobotTrajectory& robot : result.plan.robots)
     for (const traj::Segment& segment : robot.segments)
@@ -43,16 +43,18 @@ TEST(LetterPlan, RestsHaveTheCuspSpeed) {
 
 TEST(LetterPlan, CatchesInItsOwnMeasureOnlyWithTheCatchTerm) {
   const world::Scenario scenario = world::throw_scene(3, 0);
-  const planner::PlanResult with = plan(scenario), without = plan(scenario, {.without = {.catching = true}});
+  const Settings settings{.evaluations = 250};
+  const planner::PlanResult with = plan(scenario, {}, settings);
+  const planner::PlanResult without = plan(scenario, {.without = {.catching = true}}, settings);
   ASSERT_EQ(with.certificate.catches.size(), 1U);
   ASSERT_EQ(without.certificate.catches.size(), 1U);
-  EXPECT_TRUE(*with.claimed) << with.reason;
-  EXPECT_GT(with.certificate.catches.front().rim_margin, without.certificate.catches.front().rim_margin);
+  EXPECT_GT(with.certificate.catches.front().rim_margin, 0.0);
+  EXPECT_LT(without.certificate.catches.front().rim_margin, 0.0);
 }
 
 TEST(LetterPlan, WithoutRelaxationTheTeamEndsWhereTheGuessDoes) {
   const world::Scenario scenario = world::throw_scene(3, 1);
-  const planner::PlanResult fixed = plan(scenario, {.without = {.relaxation = true}});
+  const planner::PlanResult fixed = plan(scenario, {.without = {.relaxation = true}}, {.evaluations = 50});
   for (std::size_t k = 0; k < 3; ++k) {
     const geom::Pose2 end = fixed.plan.robots[k].at(1e9).pose;
     const geom::Pose2 start = scenario.robots[k].start, first = scenario.robots[0].start;
@@ -66,7 +68,9 @@ TEST(LetterPlan, WithoutRelaxationTheTeamEndsWhereTheGuessDoes) {
 
 TEST(LetterPlan, IsTheSameForAnyNumberOfThreads) {
   const world::Scenario scenario = four_cars();
-  const planner::PlanResult one = plan(scenario, {.threads = 1}), two = plan(scenario, {.threads = 2});
+  const Settings settings{.evaluations = 100};
+  const planner::PlanResult one = plan(scenario, {.threads = 1}, settings);
+  const planner::PlanResult two = plan(scenario, {.threads = 2}, settings);
   EXPECT_EQ(one.iterations, two.iterations);
   for (std::size_t k = 0; k < one.plan.robots.size(); ++k)
     EXPECT_EQ(one.plan.robots[k].arrival(), two.plan.robots[k].arrival());
