@@ -41,8 +41,8 @@ TEST(LetterPlan, RestsHaveTheCuspSpeed) {
       }
 }
 
-TEST(LetterPlan, CatchesInItsOwnMeasureOnlyWithTheCatchTerm) {
-  const world::Scenario scenario = world::throw_scene(3, 0);
+TEST(LetterPlan, GoesToTheTargetOnlyWithTheCatchTerm) {
+  const world::Scenario scenario = world::throw_scene(3, 2);
   const Settings settings{.evaluations = 250};
   const planner::PlanResult with = plan(scenario, {}, settings);
   const planner::PlanResult without = plan(scenario, {.without = {.catching = true}}, settings);
