@@ -104,11 +104,12 @@ void cusp_speeds(int cases) {
 
 int main(int count, char** arguments) {
   const int cases = count > 1 ? std::atoi(arguments[1]) : 20;
-  if (count > 3 || cases < 1) {
+  const std::string only = count > 2 ? arguments[2] : "";
+  const bool known = only.empty() || only == "random" || only == "throw" || only == "cusp";
+  if (count > 3 || cases < 1 || !known) {
     std::fprintf(stderr, "usage: seine_letter_bench [CASES [random|throw|cusp]]\n");
     return 2;
   }
-  const std::string only = count > 2 ? arguments[2] : "";
   seine::bench::Tally::print_head();
   if (only.empty() || only == "random") seine::bench::random_clutter(cases);
   if (only.empty() || only == "throw") seine::bench::throws(cases);
