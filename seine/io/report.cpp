@@ -9,18 +9,20 @@ constexpr double kNeverSeen = 1e6;  // m: above what any object flies
 
 namespace {
 
-void add_plan(const world::Scenario& scenario, const planner::PlanResult& result, JsonObject& object) {
+// @param made by the planner just now, not read from a file
+void add_plan(const world::Scenario& scenario, const planner::PlanResult& result, bool made,
+              JsonObject& object) {
   object.add("certified", result.certified);
   if (result.claimed) object.add("claimed", *result.claimed);
   object.add("reason", result.reason);
   object.add("robots", static_cast<int>(scenario.robots.size()));
-  if (result.iterations > 0 || !result.certified) {
+  if (made) {
     object.add("compute_s", result.times.compute);
     object.add("guess_s", result.times.guess);
     object.add("optimise_s", result.times.optimise);
   }
   object.add("certify_s", result.times.certify);
-  object.add("iterations", result.iterations);
+  if (made) object.add("iterations", result.iterations);
   if (!result.certified && !result.claimed.value_or(false)) return;
   object.add("makespan_s", result.quality.makespan);
   object.add("mean_travel_s", result.quality.mean_travel);
@@ -60,14 +62,14 @@ std::string notes_json(const std::vector<sim::Note>& notes) {
 
 std::string report_json(const world::Scenario& scenario, const planner::PlanResult& result) {
   JsonObject object;
-  add_plan(scenario, result, object);
+  add_plan(scenario, result, true, object);
   return object.lines() + "\n";
 }
 
 std::string report_json(const world::Scenario& scenario, const planner::PlanResult& result,
                         const sim::SimulationResult& driven) {
   JsonObject object;
-  add_plan(scenario, result, object);
+  add_plan(scenario, result, result.times.compute > 0.0, object);
   if (!driven.outcomes.empty()) object.add("caught", driven.caught);
   object.add("delivered", driven.delivered);
   object.add("tracking_rms_m", driven.tracking_rms);

@@ -15,8 +15,8 @@ namespace seine::io {
 std::string report_json(const world::Scenario& scenario, const planner::PlanResult& result);
 
 /// The same and how it went when the plan was driven: caught (of targets and payloads), delivered,
-/// tracking_rms_m, replans, real_time_factor, and more (docs/simulation.md). Times of planning are left out
-/// for a plan that was not made here (`iterations` 0).
+/// tracking_rms_m, replans, real_time_factor, and more (docs/simulation.md). What planning took is left out
+/// for a plan that was read from a file (`times.compute` 0).
 std::string report_json(const world::Scenario& scenario, const planner::PlanResult& result,
                         const sim::SimulationResult& driven);
 

@@ -22,7 +22,7 @@ CordNet net_of(const net::Net& net, const std::vector<Vec3>& corners) {
 }
 
 TEST(CordNet, AnObjectHangsWhereTheFormulaSays) {
-  for (const int robots : {3, 4, 6}) {
+  for (const int robots : teams()) {
     for (const double opening : {0.86, 0.95}) {
       const net::Net net = world::family_net(robots);
       const std::vector<Vec3> corners = held(net, opening);
@@ -58,7 +58,7 @@ TEST(CordNet, HangsAsTheFormulaSaysFromUnevenCorners) {
 }
 
 TEST(CordNet, CornersCarryTheWeight) {
-  for (const int robots : {3, 4, 6}) {
+  for (const int robots : teams()) {
     const net::Net net = world::family_net(robots);
     const std::vector<Vec3> corners = held(net, 0.9);
     CordNet physics = net_of(net, corners);

@@ -33,7 +33,7 @@ Drive catching(int robots) {
 }
 
 TEST(Simulation, AnIdealTeamCatchesAndDelivers) {
-  for (const int robots : {3, 4, 6}) {
+  for (const int robots : teams()) {
     const SimulationResult result = run(catching(robots));
     EXPECT_TRUE(result.caught) << robots << ": " << name_of(result.outcomes.at(0).fate);
     EXPECT_TRUE(result.delivered);
@@ -50,7 +50,7 @@ TEST(Simulation, AnIdealTeamCatchesAndDelivers) {
 TEST(Simulation, NoiseIsBorne) {
   for (const auto& [name, limit] : {std::pair{"low", 0.03}, std::pair{"high", 0.08}}) {
     SimulationOptions options{.noise = noise_named(name), .seed = kSeed};
-    const SimulationResult result = run(catching(4), options);
+    const SimulationResult result = run(catching(teams().back() == 3 ? 3 : 4), options);
     EXPECT_TRUE(result.caught) << name;
     EXPECT_TRUE(result.delivered) << name << ", off by " << result.goal_error;
     EXPECT_LT(result.tracking_rms, limit) << name;
@@ -59,7 +59,7 @@ TEST(Simulation, NoiseIsBorne) {
 
 TEST(Simulation, SameSeedSameBits) {
   SimulationOptions options{.noise = noise_named("high"), .seed = kSeed};
-  const Drive drive = catching(4);
+  const Drive drive = catching(3);
   const SimulationResult a = run(drive, options), b = run(drive, options);
   EXPECT_EQ(a.tracking_rms, b.tracking_rms);
   EXPECT_EQ(a.outcomes[0].lowest, b.outcomes[0].lowest);
