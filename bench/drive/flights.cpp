@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "bench/drive/parts.hpp"
-#include "seine/sim/test/flights.hpp"
+#include "seine/sim/flights.hpp"
 
 namespace seine::bench {
 namespace {

@@ -9,7 +9,7 @@
 #include <cstdio>
 
 #include "seine/base/rng.hpp"
-#include "seine/sim/test/flights.hpp"
+#include "seine/sim/flights.hpp"
 
 namespace seine::sim {
 namespace {

@@ -14,6 +14,8 @@
 #include "seine/net/flight.hpp"
 #include "seine/sim/flight_filter.hpp"
 
+// What was measured elsewhere, for tests and benchmarks: whoever includes this says where the data are
+// (SEINE_DATA_DIR).
 namespace seine::sim {
 
 struct Sight {
