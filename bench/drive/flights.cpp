@@ -19,9 +19,9 @@ void row(const char* name, const std::vector<sim::Track>& tracks, double noise) 
 
 void flights() {
   std::printf("error of the foretold end of a flight after 30, 50, 70 %% of it, median in mm\n");
-  row("thrown balls", sim::thrown_balls(), 1e-3);
-  row("table tennis 2019", sim::table_tennis("2019"), 1e-2);
-  row("table tennis 2020", sim::table_tennis("2020"), 1e-2);
+  row("thrown balls", sim::thrown_balls(SEINE_DATA_DIR), 1e-3);
+  row("table tennis 2019", sim::table_tennis(SEINE_DATA_DIR, "2019"), 1e-2);
+  row("table tennis 2020", sim::table_tennis(SEINE_DATA_DIR, "2020"), 1e-2);
 }
 
 }  // namespace seine::bench

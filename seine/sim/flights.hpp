@@ -14,8 +14,7 @@
 #include "seine/net/flight.hpp"
 #include "seine/sim/flight_filter.hpp"
 
-// What was measured elsewhere, for tests and benchmarks: whoever includes this says where the data are
-// (SEINE_DATA_DIR).
+// What was measured elsewhere, for tests and benchmarks: `data` is the folder of that name.
 namespace seine::sim {
 
 struct Sight {
@@ -46,13 +45,9 @@ inline Track read_track(const std::filesystem::path& path, double seconds_per_un
   return track;
 }
 
-inline std::filesystem::path flights_folder() {
-  return std::filesystem::path(SEINE_DATA_DIR) / "trajectories";
-}
-
 /// Thrown balls seen by motion capture at 300 Hz, 0.4 s or longer.
-inline std::vector<Track> thrown_balls() {
-  const std::filesystem::path folder = flights_folder() / "jugglebot_throws";
+inline std::vector<Track> thrown_balls(const std::filesystem::path& data) {
+  const std::filesystem::path folder = data / "trajectories" / "jugglebot_throws";
   std::vector<Track> tracks;
   for (const auto& row : read_csv(folder / "index.csv")) {
     if (std::stod(row[5]) < 0.4 || !std::filesystem::exists(folder / row[0])) continue;
@@ -63,8 +58,9 @@ inline std::vector<Track> thrown_balls() {
 
 /// Table-tennis balls up to their first bounce, 100 samples a second. `year` is how the file's name begins.
 /// Tracks with gaps (steps beyond 0.1 m) are left out, or are the only ones taken.
-inline std::vector<Track> table_tennis(const std::string& year, bool with_gaps = false) {
-  const std::filesystem::path folder = flights_folder() / "mpi_tabletennis";
+inline std::vector<Track> table_tennis(const std::filesystem::path& data, const std::string& year,
+                                       bool with_gaps = false) {
+  const std::filesystem::path folder = data / "trajectories" / "mpi_tabletennis";
   std::vector<Track> tracks;
   for (const auto& row : read_csv(folder / "index.csv")) {
     const auto bounce = static_cast<std::size_t>(std::max(0, std::stoi(row[3])));

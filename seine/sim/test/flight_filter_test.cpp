@@ -34,13 +34,13 @@ void expect_better(const char* name, const std::vector<Track>& tracks, double no
 }
 
 TEST(FlightFilter, PredictsMeasuredFlightsBetterThanAStraightLine) {
-  expect_better("thrown balls", thrown_balls(), 0.001, {49.0, 38.0, 26.0});
-  expect_better("table tennis 2019", table_tennis("2019"), 0.01, {207.0, 164.0, 121.0});
-  expect_better("table tennis 2020", table_tennis("2020"), 0.01, {207.0, 164.0, 121.0});
+  expect_better("thrown balls", thrown_balls(SEINE_DATA_DIR), 0.001, {49.0, 38.0, 26.0});
+  expect_better("table tennis 2019", table_tennis(SEINE_DATA_DIR, "2019"), 0.01, {207.0, 164.0, 121.0});
+  expect_better("table tennis 2020", table_tennis(SEINE_DATA_DIR, "2020"), 0.01, {207.0, 164.0, 121.0});
 }
 
 TEST(FlightFilter, TracksThroughGapsOfTheCamera) {
-  for (const Track& track : table_tennis("20", true)) {
+  for (const Track& track : table_tennis(SEINE_DATA_DIR, "20", true)) {
     FlightFilter seen({.noise = 0.01});
     for (std::size_t i = 0; i + 5 < track.size(); ++i) seen.observe(track[i].time, track[i].position);
     EXPECT_LT(norm(seen.position_at(track.back().time) - track.back().position), 0.15);
