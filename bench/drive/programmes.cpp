@@ -1,6 +1,5 @@
 // The tracker's quadratic programme, as it comes one after the other while a team drives.
 #include <cstdio>
-#include <ctime>
 #include <vector>
 
 #include "bench/drive/parts.hpp"
@@ -12,13 +11,6 @@
 
 namespace seine::bench {
 namespace {
-
-// Of this thread: other programs on the machine do not count.
-double cpu_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 // Drives one car along its way with errors in what it knows, so that no programme is like the last.
 void drive_timed(const vehicle::Model& model, const traj::RobotTrajectory& way, double lag, Rng& rng,
