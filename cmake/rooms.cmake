@@ -62,7 +62,7 @@ function(seine_add_room room)
     target_link_libraries(${id}_test PRIVATE ${target} seine_flags GTest::gtest GTest::gtest_main)
     target_compile_definitions(${id}_test PRIVATE SEINE_DATA_DIR="${PROJECT_SOURCE_DIR}/data")
     add_test(NAME ${id} COMMAND ${id}_test)
-    set_tests_properties(${id} PROPERTIES TIMEOUT 1800)
+    set_tests_properties(${id} PROPERTIES TIMEOUT 600)
   endif()
 endfunction()
 
