@@ -10,6 +10,7 @@
 
 #include "seine/base/rng.hpp"
 #include "seine/sim/flights.hpp"
+#include "seine/sim/test/effort.hpp"
 
 namespace seine::sim {
 namespace {
@@ -61,7 +62,7 @@ Vec3 noise(Rng& rng, double sigma) {
 }
 
 TEST(FlightFilter, ItsTargetCrossesTheRimWithinTheErrorItStates) {
-  constexpr int kRounds = 300;
+  constexpr int kRounds = effort(300, 100);
   constexpr double kRim = 1.0, kNoise = 0.02;
   Rng rng(kSeed);
   int within = 0;

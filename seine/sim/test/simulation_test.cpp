@@ -66,6 +66,7 @@ TEST(Simulation, SameSeedSameBits) {
   EXPECT_EQ(a.tracking_rms, b.tracking_rms);
   EXPECT_EQ(a.outcomes[0].lowest, b.outcomes[0].lowest);
   EXPECT_EQ(a.outcomes[0].catch_time, b.outcomes[0].catch_time);
+  if (effort(1, 0) == 0) return;
   options.seed = kSeed + 1;
   EXPECT_NE(run(drive, options).tracking_rms, a.tracking_rms);
 }
@@ -81,7 +82,7 @@ TEST(Simulation, WhatFallsBesideTheNetIsNotCaught) {
 }
 
 TEST(Simulation, CarriesAPayload) {
-  Drive drive = drive_of(4);
+  Drive drive = drive_of(teams().back() == 3 ? 3 : 4, 2.0, 2.5, 0.2);
   drive.scenario.payload = net::Payload{};
   const SimulationResult result = run(drive);
   EXPECT_EQ(result.outcomes.size(), 1u);
