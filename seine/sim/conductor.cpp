@@ -23,6 +23,17 @@ std::string centimetres(double metres) {
   return text;
 }
 
+// What a better plan is better in.
+std::string gain(const Worth& now, const Worth& then) {
+  constexpr double kWorthTelling = 0.005;  // m
+  if (now.shortfall > then.shortfall + kWorthTelling)
+    return "margins lack " + centimetres(then.shortfall) + " instead of " + centimetres(now.shortfall);
+  char text[64];
+  std::snprintf(text, sizeof text, "margins kept, at rest %.1f s %s", std::abs(now.arrival - then.arrival),
+                then.arrival < now.arrival ? "sooner" : "later");
+  return text;
+}
+
 }  // namespace
 
 Conductor::Conductor(const world::Scenario& scenario, const traj::TeamTrajectory& plan,
@@ -116,8 +127,7 @@ void Conductor::weigh(double time, const std::vector<net::Target>& in_the_air) {
   begin_ = candidate.begin;
   clock_ = PlanClock(time - begin_);
   ++adopted_;
-  news_.push_back("a new plan is followed: margins lack " + centimetres(then.shortfall) + " instead of " +
-                  centimetres(now.shortfall));
+  news_.push_back("a new plan is followed: " + gain(now, then));
 }
 
 }  // namespace seine::sim
