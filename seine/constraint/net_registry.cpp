@@ -49,7 +49,7 @@ std::vector<Vec2> ring(std::span<const double> x) {
 }
 
 template <class Pair>
-Entry pair(const char* name, Pair term) {
+math::Formula pair(const char* name, Pair term) {
   return {name, 4,
           [term](auto x, auto g) {
             Vec2 a, b;
@@ -61,7 +61,7 @@ Entry pair(const char* name, Pair term) {
 }
 
 template <class Ring>
-Entry of_ring(const char* name, Ring term) {
+math::Formula of_ring(const char* name, Ring term) {
   return {name, 2 * kCorners,
           [term](auto x, auto g) {
             std::vector<Vec2> gradient(kCorners);
@@ -112,7 +112,7 @@ double delivery_entry(std::span<const double> x, std::span<double> g) {
 
 }  // namespace
 
-std::vector<Entry> net_registry() {
+std::vector<math::Formula> net_registry() {
   return {{"catch_velocity", 4, velocity_entry, draw_any},
           {"delivery", 4, delivery_entry, draw_any},
           of_ring("net_clearance", clearance_of_ring),

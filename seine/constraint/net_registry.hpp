@@ -7,6 +7,6 @@
 namespace seine::constraint {
 
 /// The part of the registry that a net brings.
-std::vector<Entry> net_registry();
+std::vector<math::Formula> net_registry();
 
 }  // namespace seine::constraint

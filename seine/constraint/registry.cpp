@@ -40,7 +40,7 @@ void draw_pair(Rng& rng, std::span<double> x) {
   }
 }
 
-Entry scalar(const char* name, double (*f)(double, double, double&)) {
+math::Formula scalar(const char* name, double (*f)(double, double, double&)) {
   return {name, 1, [f](auto x, auto g) { return f(x[0], 1.7, g[0]); }, draw_any};
 }
 
@@ -112,18 +112,18 @@ double footprint_distance_entry(std::span<const double> x, std::span<double> g) 
 
 }  // namespace
 
-std::vector<Entry> registry() {
-  std::vector<Entry> all{{"corridor", 4, corridor_entry, draw_pair},
-                         {"curvature", 4, curvature_entry, draw_curve},
-                         {"footprint_distance", 6, footprint_distance_entry, draw_any},
-                         {"inter_vehicle", 6, inter_vehicle_entry, draw_any},
-                         scalar("lateral_acceleration", lateral_acceleration),
-                         scalar("progress", progress),
-                         {"regularity", 3, regularity_entry, draw_curve},
-                         scalar("speed", speed),
-                         {"steering_rate", 7, steering_rate_entry, draw_curve},
-                         scalar("tangential_acceleration", tangential_acceleration)};
-  for (Entry& entry : net_registry()) all.push_back(std::move(entry));
+std::vector<math::Formula> registry() {
+  std::vector<math::Formula> all{{"corridor", 4, corridor_entry, draw_pair},
+                                 {"curvature", 4, curvature_entry, draw_curve},
+                                 {"footprint_distance", 6, footprint_distance_entry, draw_any},
+                                 {"inter_vehicle", 6, inter_vehicle_entry, draw_any},
+                                 scalar("lateral_acceleration", lateral_acceleration),
+                                 scalar("progress", progress),
+                                 {"regularity", 3, regularity_entry, draw_curve},
+                                 scalar("speed", speed),
+                                 {"steering_rate", 7, steering_rate_entry, draw_curve},
+                                 scalar("tangential_acceleration", tangential_acceleration)};
+  for (math::Formula& entry : net_registry()) all.push_back(std::move(entry));
   return all;
 }
 

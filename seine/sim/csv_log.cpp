@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "seine/sim/car_signals.hpp"
 #include "seine/sim/number_format.hpp"
 
 namespace seine::sim {
@@ -9,24 +10,6 @@ namespace {
 
 constexpr int kDigits = 6;  // micrometres
 
-constexpr std::array kCarColumns{"x",
-                                 "y",
-                                 "heading",
-                                 "speed",
-                                 "acceleration",
-                                 "steering",
-                                 "believed_x",
-                                 "believed_y",
-                                 "believed_heading",
-                                 "believed_speed",
-                                 "reference_x",
-                                 "reference_y",
-                                 "reference_heading",
-                                 "reference_speed",
-                                 "commanded_acceleration",
-                                 "commanded_steering",
-                                 "pull_x",
-                                 "pull_y"};
 constexpr std::array kTargetColumns{"x",
                                     "y",
                                     "z",
@@ -79,7 +62,7 @@ void CsvLog::empty(int count) {
 void CsvLog::head(const Record& record) {
   for (const char* name : {"t", "plan_time", "plan_rate"}) cell(std::string(name));
   for (const std::string& robot : robots_)
-    for (const char* column : kCarColumns) cell(robot + "." + column);
+    for (const Signal& signal : signals_of(CarRecord{})) cell(robot + "." + signal.name);
   for (std::size_t i = 0; i < record.targets.size(); ++i)
     for (const char* column : kTargetColumns) cell("target" + std::to_string(i + 1) + "." + column);
   cell(std::string("note"));
@@ -100,12 +83,7 @@ void CsvLog::record(const Record& record) {
 }
 
 void CsvLog::row(const CarRecord& car) {
-  const CarState &t = car.truth, &b = car.belief;
-  const traj::State& r = car.reference;
-  for (const double value : {t.pose.x, t.pose.y, t.pose.heading, t.speed, t.acceleration, t.steering,
-                             b.pose.x, b.pose.y, b.pose.heading, b.speed, r.pose.x, r.pose.y, r.pose.heading,
-                             r.speed, car.command.acceleration, car.command.steering, car.pull.x, car.pull.y})
-    cell(value);
+  for (const Signal& signal : signals_of(car)) cell(signal.value);
 }
 
 void CsvLog::row(const TargetRecord& target) {

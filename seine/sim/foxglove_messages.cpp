@@ -6,6 +6,7 @@
 
 #include "seine/geom/box.hpp"
 #include "seine/geom/pose2.hpp"
+#include "seine/sim/car_signals.hpp"
 #include "seine/sim/foxglove.hpp"
 
 namespace seine::sim::foxglove {
@@ -192,19 +193,11 @@ std::string log(const Note& note) {
 }
 
 std::string car(const CarRecord& car, double time) {
-  const CarState &t = car.truth, &b = car.belief;
-  const traj::State& r = car.reference;
   JsonText json;
-  json.open('{').field("t", time).field("x", t.pose.x).field("y", t.pose.y).field("heading", t.pose.heading);
-  json.field("speed", t.speed).field("acceleration", t.acceleration).field("steering", t.steering);
-  json.field("believed_x", b.pose.x).field("believed_y", b.pose.y);
-  json.field("believed_heading", b.pose.heading).field("believed_speed", b.speed);
-  json.field("reference_x", r.pose.x).field("reference_y", r.pose.y);
-  json.field("reference_heading", r.pose.heading).field("reference_speed", r.speed);
-  json.field("tracking_error", geom::norm(t.pose.position() - r.pose.position()));
-  json.field("commanded_acceleration", car.command.acceleration);
-  json.field("commanded_steering", car.command.steering);
-  return json.field("pull_x", car.pull.x).field("pull_y", car.pull.y).close('}').str();
+  json.open('{').field("t", time);
+  for (const Signal& signal : signals_of(car)) json.field(signal.name, signal.value);
+  const double error = geom::norm(car.truth.pose.position() - car.reference.pose.position());
+  return json.field("tracking_error", error).close('}').str();
 }
 
 std::string target(const TargetRecord& target, double time) {

@@ -1,6 +1,7 @@
 #include <initializer_list>
 #include <utility>
 
+#include "seine/sim/car_signals.hpp"
 #include "seine/sim/foxglove.hpp"
 
 namespace seine::sim::foxglove {
@@ -25,13 +26,6 @@ std::string object(const char* title, std::initializer_list<Field> fields) {
 
 std::string array(const std::string& items) {
   return R"({"type":"array","items":)" + items + "}";
-}
-
-std::string numbers(const char* title, std::initializer_list<const char*> names) {
-  JsonText json;
-  json.open('{').field("title", title).field("type", "object").key("properties").open('{');
-  for (const char* name : names) json.key(name).raw(kNumber);
-  return json.close('}').close('}').str();
 }
 
 std::string time(const char* title) {
@@ -106,26 +100,11 @@ std::string log_schema() {
 }
 
 std::string car_schema() {
-  return numbers("seine.Car", {"t",
-                               "x",
-                               "y",
-                               "heading",
-                               "speed",
-                               "acceleration",
-                               "steering",
-                               "believed_x",
-                               "believed_y",
-                               "believed_heading",
-                               "believed_speed",
-                               "reference_x",
-                               "reference_y",
-                               "reference_heading",
-                               "reference_speed",
-                               "tracking_error",
-                               "commanded_acceleration",
-                               "commanded_steering",
-                               "pull_x",
-                               "pull_y"});
+  JsonText json;
+  json.open('{').field("title", "seine.Car").field("type", "object").key("properties").open('{');
+  json.key("t").raw(kNumber).key("tracking_error").raw(kNumber);
+  for (const Signal& signal : signals_of(CarRecord{})) json.key(signal.name).raw(kNumber);
+  return json.close('}').close('}').str();
 }
 
 std::string target_schema() {

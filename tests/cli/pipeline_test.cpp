@@ -64,9 +64,7 @@ TEST(Pipeline, APlanForAnotherTaskIsRefuted) {
   const Scratch scratch;
   scratch.write("s.yaml", two_cars());
   ASSERT_EQ(scratch.run("plan s.yaml -o p.json").status, 0);
-  std::string moved = two_cars();
-  moved.replace(moved.find("x: 3, y: 0.6"), 12, "x: 3, y: 0.7");
-  scratch.write("moved.yaml", moved);
+  scratch.write("moved.yaml", two_cars_elsewhere());
   const Outcome outcome = scratch.run("certify moved.yaml p.json");
   EXPECT_EQ(outcome.status, 1) << outcome.out;
   EXPECT_NE(outcome.out.find("left"), std::string::npos) << outcome.out;

@@ -66,4 +66,10 @@ std::string two_cars(const std::string& extra) {
          extra;
 }
 
+std::string two_cars_elsewhere() {
+  std::string moved = two_cars();
+  const std::string goal = "x: 3, y: 0.6";
+  return moved.replace(moved.find(goal), goal.size(), "x: 3, y: 0.7");
+}
+
 }  // namespace seine::tests

@@ -41,5 +41,7 @@ double patience();
 
 /// A small valid task: two cars that pass each other, and whatever else `extra` adds (YAML at the top level).
 std::string two_cars(const std::string& extra = "");
+/// Almost the same task: a plan for two_cars() is none for it.
+std::string two_cars_elsewhere();
 
 }  // namespace seine::tests

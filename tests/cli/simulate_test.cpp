@@ -54,9 +54,7 @@ TEST(Simulate, NeverDrivesWhatIsNotCertified) {
   const Scratch scratch;
   scratch.write("s.yaml", two_cars());
   ASSERT_EQ(scratch.run("plan s.yaml -o p.json").status, 0);
-  std::string moved = two_cars();
-  moved.replace(moved.find("x: 3, y: 0.6"), 12, "x: 3, y: 0.7");
-  scratch.write("moved.yaml", moved);
+  scratch.write("moved.yaml", two_cars_elsewhere());
   const Outcome outcome = scratch.run("simulate moved.yaml p.json --log d.csv");
   EXPECT_EQ(outcome.status, 1) << outcome.out;
   EXPECT_EQ(outcome.out.find("REFUTED"), 0u) << outcome.out;

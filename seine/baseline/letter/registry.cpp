@@ -34,7 +34,7 @@ void draw_ring(Rng& rng, std::span<double> x) {
   }
 }
 
-Entry flat(const char* name, double (*f)(Vec2, Vec2, FlatGradient&)) {
+math::Formula flat(const char* name, double (*f)(Vec2, Vec2, FlatGradient&)) {
   return {name, 4,
           [f](auto x, auto g) {
             FlatGradient d;
@@ -90,7 +90,7 @@ double clamped_entry(std::span<const double> x, std::span<double> g) {
 
 }  // namespace
 
-std::vector<Entry> registry() {
+std::vector<math::Formula> registry() {
   return {flat("speed_limit", [](Vec2 v, Vec2, FlatGradient& g) { return speed_limit(v, 1.7, g); }),
           flat("tangential_limit",
                [](Vec2 v, Vec2 a, FlatGradient& g) { return tangential_limit(v, a, 1.7, g); }),

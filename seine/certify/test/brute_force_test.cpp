@@ -4,16 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include "seine/base/effort.hpp"
 #include "seine/certify/tolerances.hpp"
 
 namespace seine::certify::test {
 namespace {
 
-#ifdef SEINE_SANITIZED
-constexpr int kLimitPlans = 8, kDistancePlans = 2;
-#else
-constexpr int kLimitPlans = 150, kDistancePlans = 60;
-#endif
+constexpr int kLimitPlans = effort(150, 8), kDistancePlans = effort(60, 2);
 constexpr double kRate = 10000.0;  // Hz
 
 Shape random_shape(Rng& rng) {

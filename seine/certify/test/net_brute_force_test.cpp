@@ -2,6 +2,7 @@
 // finds.
 #include <gtest/gtest.h>
 
+#include "seine/base/effort.hpp"
 #include "seine/certify/height.hpp"
 #include "seine/certify/test/brute_force.hpp"
 #include "seine/certify/test/net_plans.hpp"
@@ -10,11 +11,7 @@
 namespace seine::certify::test {
 namespace {
 
-#ifdef SEINE_SANITIZED
-constexpr int kPlans = 3, kFewPlans = 1;
-#else
-constexpr int kPlans = 20, kFewPlans = 8;
-#endif
+constexpr int kPlans = effort(20, 3), kFewPlans = effort(8, 1);
 // A plan with this much room must hold, m; with that much too little it must not.
 constexpr double kClean = 1e-3, kBroken = 1.5e-4;
 

@@ -1,36 +1,10 @@
 // What the tracker does when a plan fails, and that it takes no memory while driving.
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <cmath>
-#include <cstdlib>
 
+#include "seine/base/count_allocations.hpp"
 #include "seine/mpc/test/drive.hpp"
-
-namespace {
-std::atomic<long> g_allocations{0};
-}
-
-#ifndef SEINE_SANITIZED  // the sanitizers have their own allocator
-extern "C" {
-void* __libc_malloc(std::size_t);
-void* __libc_calloc(std::size_t, std::size_t);
-void* __libc_realloc(void*, std::size_t);
-
-void* malloc(std::size_t size) {
-  ++g_allocations;
-  return __libc_malloc(size);
-}
-void* calloc(std::size_t count, std::size_t size) {
-  ++g_allocations;
-  return __libc_calloc(count, size);
-}
-void* realloc(void* old, std::size_t size) {
-  ++g_allocations;
-  return __libc_realloc(old, size);
-}
-}
-#endif
 
 namespace seine::mpc {
 namespace {
@@ -190,9 +164,9 @@ TEST(Failure, DrivingTakesNoMemory) {
     for (std::size_t k = 0; k < reference.size(); ++k)
       reference[k] = course(0.05 * (i + static_cast<double>(k)));
     if (i == 50) reference[3].state.x = NAN;
-    const long before = g_allocations;
+    const long before = allocations;
     const Command command = tracker.step(state, reference);
-    EXPECT_EQ(g_allocations - before, 0);
+    EXPECT_EQ(allocations - before, 0);
     state = advance(state, command.input, kCar.wheelbase, 0.05);
   }
 }

@@ -5,10 +5,10 @@
 
 #include <cmath>
 
+#include "seine/base/effort.hpp"
 #include "seine/base/error.hpp"
 #include "seine/base/rng.hpp"
 #include "seine/mpc/test/drive.hpp"
-#include "seine/mpc/test/effort.hpp"
 
 namespace seine::mpc {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <cmath>
 
+#include "seine/base/effort.hpp"
 #include "seine/base/rng.hpp"
 #include "seine/mpc/test/drive.hpp"
-#include "seine/mpc/test/effort.hpp"
 #include "seine/traj/minco.hpp"
 
 namespace seine::mpc {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "seine/base/deadline.hpp"
+#include "seine/base/effort.hpp"
 #include "seine/base/error.hpp"
 #include "seine/geom/convex.hpp"
 #include "seine/planner/planner.hpp"
@@ -12,13 +13,8 @@
 namespace seine::planner {
 namespace {
 
-#ifdef SEINE_SANITIZED
-constexpr int kSeeds = 1;
-constexpr double kStep = 0.02;
-#else
-constexpr int kSeeds = 5;
-constexpr double kStep = 0.002;
-#endif
+constexpr int kSeeds = effort(5, 1);
+constexpr double kStep = 1.0 / effort(500, 50);  // s
 
 // What a stranger with a stopwatch and a ruler would find: every limit and every distance, at many instants,
 // without the certificate.

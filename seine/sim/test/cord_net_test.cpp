@@ -8,7 +8,7 @@
 
 #include "seine/net/flight.hpp"
 #include "seine/sim/drops.hpp"
-#include "seine/sim/test/effort.hpp"
+#include "seine/sim/test/teams.hpp"
 
 namespace seine::sim {
 namespace {

@@ -6,8 +6,8 @@
 #include <cstdio>
 #include <optional>
 
+#include "seine/base/effort.hpp"
 #include "seine/sim/drops.hpp"
-#include "seine/sim/test/effort.hpp"
 
 namespace seine::sim {
 namespace {

@@ -8,9 +8,9 @@
 #include <array>
 #include <cstdio>
 
+#include "seine/base/effort.hpp"
 #include "seine/base/rng.hpp"
 #include "seine/sim/flights.hpp"
-#include "seine/sim/test/effort.hpp"
 
 namespace seine::sim {
 namespace {

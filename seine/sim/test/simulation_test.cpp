@@ -7,7 +7,7 @@
 #include <cstdio>
 
 #include "seine/sim/test/drives.hpp"
-#include "seine/sim/test/effort.hpp"
+#include "seine/sim/test/teams.hpp"
 
 namespace seine::sim {
 namespace {
