@@ -17,6 +17,8 @@ constexpr double kChangeLength = 5.0;   // car lengths over which the formation 
 constexpr int kQuickExpansions = 500;   // as the crow flies, as at the start
 constexpr int kShapeExpansions = 6000;  // around what is tall, in shapes for narrow places too
 constexpr int kMostExpansions = 24000;  // the same, when that was not enough
+constexpr double kCoarseCell = 0.7;    // car lengths
+constexpr int kCoarseHeadings = 20;
 constexpr double kGreedy = 2.5;         // weight of what is left, for a way soon instead of a fast one
 constexpr double kHoldPace = 0.8;       // of the top speed: how far a team drives while it holds a catch
 
@@ -110,12 +112,13 @@ FormationGuess FormationGuesser::assemble(search::FormationPath way) const {
 std::optional<FormationGuess> FormationGuesser::guess(int attempt) {
   search::FormationSettings settings{.max_expansions = kQuickExpansions};
   if (attempt > 0) {
-    // Where a greedy search finds no way a thorough one hardly ever does.
-    const bool thorough = attempt % 2 == 0;
-    if (thorough && !found_[static_cast<std::size_t>(attempt - 1)]) return std::nullopt;
     if (!narrow_) offer_narrow_shapes();
     settings = {.max_expansions = kShapeExpansions, .field = true};
-    if (!thorough) settings.heuristic_weight = kGreedy;
+    const bool first = attempt % 2 == 1;
+    if (first) settings.cell = kCoarseCell, settings.headings = kCoarseHeadings;
+    const bool before = found_[static_cast<std::size_t>(attempt - 1)];
+    if (attempt == 4 && !before) return std::nullopt;
+    if (first || !before) settings.heuristic_weight = kGreedy;
   }
   if (attempt >= 3) {
     // The optimiser holds the net open longer than the guess did, if it has to. Where there is no catch the

@@ -63,6 +63,9 @@ struct FormationProblem {
 struct FormationSettings {
   int max_expansions = 20000;
   double heuristic_weight = 1.3;
+  /// Of poses nearer than this only the cheapest goes on: car lengths, and shares of a turn (at most 64).
+  double cell = 0.5;
+  int headings = 32;
   bool forward = true, backward = true;  ///< gears it may drive in
   bool field = false;  ///< distances to go around what is tall, instead of as the crow flies
 };

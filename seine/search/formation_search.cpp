@@ -16,9 +16,7 @@ using vehicle::Arc;
 
 // Lengths in car lengths unless said otherwise; docs/net-planning.md has the measurements.
 constexpr double kStep = 0.8;
-constexpr double kCell = 0.5;
 constexpr double kSlice = 0.01;  // of a car length at top speed: estimates this near are alike
-constexpr int kHeadings = 32;
 constexpr double kForwardTurns[] = {0.0, 0.22, -0.22, 0.5, -0.5, 0.88, -0.88};  // of κ_max
 constexpr double kBackwardTurns[] = {0.0, 0.5, -0.5, 0.88, -0.88};
 constexpr double kCurvedPrice = 0.02;                      // share of a step's time
@@ -58,7 +56,7 @@ class Lattice {
         scenario_(*problem.scenario),
         limits_(limits_of(scenario_)),
         step_(kStep * limits_.length),
-        cell_(kCell * limits_.length),
+        cell_(settings.cell * limits_.length),
         open_(kSlice * limits_.length / limits_.speed) {
     const auto fan = [&](std::span<const double> turns, double distance) {
       for (const double turn : turns) moves_.push_back(move_of({turn * limits_.curvature, distance}));
@@ -217,9 +215,9 @@ std::uint64_t Lattice::bin(const Node& n) const {
   const auto index = [](double value) {
     return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(value)) + (1 << 20));
   };
-  const double slice = 2.0 * std::numbers::pi / kHeadings;
+  const double slice = 2.0 * std::numbers::pi / s_.headings;
   const auto heading = static_cast<std::int64_t>(std::floor(n.stand.heading / slice + 0.5));
-  const std::int64_t turn = (heading % kHeadings + kHeadings) % kHeadings;
+  const std::int64_t turn = (heading % s_.headings + s_.headings) % s_.headings;
   // Which narrow shape leads to a pose matters little; told apart, they would only be searched many times.
   // Without a goal the way goes on after the last rendezvous until the team can stop.
   const bool stopping = n.phase == meetings() && !p_.goal;

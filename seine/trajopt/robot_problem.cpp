@@ -133,6 +133,7 @@ void RobotProblem::set_scale() {
     const double l = piece_length(i), scale = std::min(1.0, l * l * kappa_unit_);
     for (int j = 0; j < 2 * (segments_[i].pieces - 1); ++j)
       scale_[static_cast<std::size_t>(segments_[i].knots + j)] = scale;
+    scale_[static_cast<std::size_t>(segments_[i].duration)] = settings_.duration_scale;
   }
   for (std::size_t r = 0; r < rests_.size(); ++r) {
     if (rests_[r].pose_variable < 0) continue;

@@ -24,6 +24,8 @@ struct Settings {
   int past = 4;                                         ///< … over this many iterations
   int soft_evaluations = 300, stiff_evaluations = 700;  ///< at most
   int memory = 16;
+  /// Of the logarithms of durations as the optimiser sees them, for clocks on which single moments matter.
+  double duration_scale = 1.0;
   double tighten =
       0.01;  ///< limits are kept to (1 − this), so that what happens between samples stays inside
   double clearance_slack = 0.015;  ///< car lengths added to every clearance, for the same reason
