@@ -17,10 +17,10 @@ constexpr double kChangeLength = 5.0;   // car lengths over which the formation 
 constexpr int kQuickExpansions = 500;   // as the crow flies, as at the start
 constexpr int kShapeExpansions = 6000;  // around what is tall, in shapes for narrow places too
 constexpr int kMostExpansions = 24000;  // the same, when that was not enough
-constexpr double kCoarseCell = 0.7;    // car lengths
+constexpr double kCoarseCell = 0.7;     // car lengths
 constexpr int kCoarseHeadings = 20;
-constexpr double kGreedy = 2.5;         // weight of what is left, for a way soon instead of a fast one
-constexpr double kHoldPace = 0.8;       // of the top speed: how far a team drives while it holds a catch
+constexpr double kGreedy = 2.5;    // weight of what is left, for a way soon instead of a fast one
+constexpr double kHoldPace = 0.8;  // of the top speed: how far a team drives while it holds a catch
 
 // Where every robot has a goal of its own the formation ends as they stand there.
 struct End {
@@ -85,9 +85,9 @@ void FormationGuesser::offer_narrow_shapes() {
   const bool loaded = std::isfinite(question_.task.loaded_from);
   double highest = 0.0;
   for (const search::LowPiece& low : search_.problem().low) highest = std::max(highest, low.height);
-  for (const double above : {scenario_.net->clearance, highest})
-    if (above > 0.0)
-      search_.offer(search::narrow_shapes(scenario_, search_.problem().start.heading, loaded, above));
+  std::vector<double> heights{scenario_.net->clearance};
+  if (highest > heights.front()) heights.push_back(highest);
+  search_.offer(search::narrow_shapes(scenario_, search_.problem().start.heading, loaded, heights));
 }
 
 FormationGuess FormationGuesser::assemble(search::FormationPath way) const {
@@ -110,7 +110,8 @@ FormationGuess FormationGuesser::assemble(search::FormationPath way) const {
 }
 
 std::optional<FormationGuess> FormationGuesser::guess(int attempt) {
-  search::FormationSettings settings{.max_expansions = kQuickExpansions};
+  search::FormationSettings settings{
+      .max_expansions = kQuickExpansions, .cell = kCoarseCell, .headings = kCoarseHeadings};
   if (attempt > 0) {
     if (!narrow_) offer_narrow_shapes();
     settings = {.max_expansions = kShapeExpansions, .field = true};

@@ -23,7 +23,6 @@ constexpr int kPast = 3;
 // A catch happens at a time of the common clock: everybody's place in it hangs on the duration.
 constexpr double kDurationScale = 0.25;
 constexpr double kTighten = 0.015;      // longer pieces, more between samples
-constexpr double kGoOnDecrease = 2e-3;  // an optimum a little off needs no more than a touch
 constexpr std::size_t kShareCars = 8;
 constexpr double kTick = 0.1334;  // of the time a car takes to drive its own length
 // One path for all: longer pieces than for a car among others, for nobody has to dodge anybody.
@@ -82,7 +81,6 @@ bool NetSession::go_on() {
   tasks_ = fit_previous(*options_.previous, options_.previous_time, scenario_, map_, kFit);
   if (tasks_.empty()) return false;
   prepare();
-  settings_.stiff_decrease = kGoOnDecrease;
   result_.times.corridor += watch.seconds();
   solve(false);
   polish(kGoOnRounds);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace seine::search {
 namespace {
@@ -101,9 +102,14 @@ void FormationGround::find_ways(std::span<const Formation> shapes) {
   fields_.clear();
   tall_ = std::make_unique<PointDistances>(*p_.tall, 0.5 * radius, 4.0 * radius);
   const DiscWay way{.distances = tall_.get(), .radius = radius};
-  for (const Rendezvous& meeting : p_.meetings)
-    fields_.push_back(std::make_unique<CostToGo>(way, meeting.point));
-  if (p_.goal) fields_.push_back(std::make_unique<CostToGo>(way, p_.goal->center));
+  // Asked about mostly on the way from the place before.
+  Vec2 from = middle(stand_at(p_.start), shapes.front());
+  const auto add = [&](Vec2 place) {
+    fields_.push_back(std::make_unique<CostToGo>(way, place));
+    fields_.back()->focus(std::exchange(from, place));
+  };
+  for (const Rendezvous& meeting : p_.meetings) add(meeting.point);
+  if (p_.goal) add(p_.goal->center);
 }
 
 double FormationGround::to(std::size_t place, Vec2 point, bool field) {

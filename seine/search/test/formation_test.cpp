@@ -125,7 +125,7 @@ TEST(Formation, ChangesShapeWhereThereIsRoom) {
       problem.shapes.front().lowest = 1e9;
       problem.goal = FormationGoal{scenario.delivery->center, 0.35, {}};
       FormationSearch search(problem);
-      search.offer(narrow_shapes(scenario, problem.start.heading, true, scenario.net->clearance));
+      search.offer(narrow_shapes(scenario, problem.start.heading, true, {{scenario.net->clearance}}));
       const auto way = search.find({.heuristic_weight = 2.5, .field = true});
       ASSERT_TRUE(way) << robots << " cars, seed " << seed;
       std::size_t held = 0;
@@ -161,7 +161,7 @@ TEST(NarrowShapes, KeepTheNetSafeAndTheCarsApart) {
   for (const int robots : {3, 4, 5, 6}) {
     const world::Scenario scenario = world::gap_scene(robots, 3);
     const double heading = formation_frame(scenario).heading;
-    const auto shapes = narrow_shapes(scenario, heading, true, 0.05);
+    const auto shapes = narrow_shapes(scenario, heading, true, {{0.05}});
     EXPECT_GE(shapes.size(), 6u) << robots << " cars";
     const net::Net& net = *scenario.net;
     for (const Formation& shape : shapes) {
