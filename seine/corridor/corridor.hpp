@@ -33,6 +33,10 @@ struct Corridor {
                               ///< was too small
 
   std::size_t samples() const { return depth.size(); }
+  /// Whether any plane belongs to a sample; samples that are not there have none.
+  bool bounds(std::size_t sample) const {
+    return sample + 1 < begin.size() && begin[sample] < begin[sample + 1];
+  }
 };
 
 Corridor build(std::span<const geom::Pose2> poses, const vehicle::Model& model, const world::StaticMap& map,

@@ -7,13 +7,23 @@
 #include "seine/net/shape.hpp"
 
 namespace seine::net {
+namespace {
+
+constexpr double kTurned = 0.85;  // of the fastest bounce that stays under the rim
+
+}  // namespace
 
 using geom::Vec2;
 
 double speed_limit(double depth, double radius, double rebound) {
   const double drop = std::max(0.0, depth - radius);
   const double bounce = 1.0 / (rebound * rebound) - 1.0;
-  return std::min(kMaxSpeed, 0.85 * std::sqrt(2.0 * kGravity * drop * bounce));
+  return std::min(kMaxSpeed, kTurned * std::sqrt(2.0 * kGravity * drop * bounce));
+}
+
+double stopping_depth(double speed, double radius, double rebound) {
+  const double bounce = 1.0 / (rebound * rebound) - 1.0, turned = speed / kTurned;
+  return radius + turned * turned / (2.0 * kGravity * bounce);
 }
 
 double impact_drop(double speed, double mass) {

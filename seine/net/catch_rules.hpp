@@ -29,6 +29,8 @@ inline constexpr double kBraking = 3.0;  ///< m/s² after the catch: more was no
 /// The fastest object, m/s, that does not bounce over the rim of a net whose middle hangs `depth` (m) below
 /// it: after one bounce it must turn 15 % short of √(2 g (D − r)). Rebound e as in Net.
 double speed_limit(double depth, double radius, double rebound);
+/// The other way round: how deep (m) the net must hang for an object at `speed`, up to kMaxSpeed.
+double stopping_depth(double speed, double radius, double rebound);
 
 /// How far below its hanging place (m) an object of `mass` (kg) at `speed` (m/s) carries the net: the
 /// envelope of all drops.

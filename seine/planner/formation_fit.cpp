@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "seine/traj/minco.hpp"
 #include "seine/trajopt/kernels.hpp"
@@ -140,13 +141,10 @@ std::vector<trajopt::RobotTask> fit_formation(const FormationGuess& guess, const
     for (std::size_t i = 0; i < stretches.size(); ++i) {
       const Stretch& stretch = stretches[i];
       task.segments.push_back(fit.segment(stretch, task.model, i == 0, i + 1 == stretches.size()));
-      const int samples = stretch.pieces * trajopt::kCurveLanes;
-      for (int j = 0; j < samples; ++j) {
-        const double s = stretch.from + (stretch.to - stretch.from) * j / samples;
-        const Vec2 at = fit.position(s);
-        poses.push_back({at.x, at.y, search::pose_at(guess.way.path, s).heading});
-      }
+      std::ranges::move(trajopt::sample_poses(task.segments.back()), std::back_inserter(poses));
     }
+    const trajopt::SegmentGuess& last = task.segments.back();
+    poses.push_back({last.points.back().x, last.points.back().y, last.end_heading});
     set_corridor(task, poses, scenario, map, options);
     tasks.push_back(std::move(task));
   }

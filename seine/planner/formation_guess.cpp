@@ -12,13 +12,15 @@ namespace {
 using geom::Vec2;
 using search::Formation;
 
-constexpr double kGoalShare = 0.7;      // of the delivery's radius
-constexpr double kChangeLength = 5.0;   // car lengths over which the formation changes shape
-constexpr int kQuickExpansions = 500;   // as the crow flies, as at the start
-constexpr int kShapeExpansions = 6000;  // around what is tall, in shapes for narrow places too
-constexpr int kMostExpansions = 24000;  // the same, when that was not enough
-constexpr double kCoarseCell = 0.7;     // car lengths
+constexpr double kGoalShare = 0.7;       // of the delivery's radius
+constexpr double kChangeLength = 5.0;    // car lengths over which the formation changes shape
+constexpr int kQuickExpansions = 500;    // as the crow flies, as at the start
+constexpr int kShapeExpansions = 6000;   // around what is tall, in shapes for narrow places too
+constexpr int kMostExpansions = 150000;  // the same, when that was not enough
+constexpr double kCoarseCell = 0.7;      // car lengths
 constexpr int kCoarseHeadings = 20;
+constexpr double kCoarsestCell = 0.8;
+constexpr int kFewestHeadings = 16;
 constexpr double kGreedy = 2.5;    // weight of what is left, for a way soon instead of a fast one
 constexpr double kHoldPace = 0.8;  // of the top speed: how far a team drives while it holds a catch
 
@@ -116,7 +118,7 @@ std::optional<FormationGuess> FormationGuesser::guess(int attempt) {
     if (!narrow_) offer_narrow_shapes();
     settings = {.max_expansions = kShapeExpansions, .field = true};
     const bool first = attempt % 2 == 1;
-    if (first) settings.cell = kCoarseCell, settings.headings = kCoarseHeadings;
+    if (first) settings.cell = kCoarsestCell, settings.headings = kFewestHeadings;
     const bool before = found_[static_cast<std::size_t>(attempt - 1)];
     if (attempt == 4 && !before) return std::nullopt;
     if (first || !before) settings.heuristic_weight = kGreedy;

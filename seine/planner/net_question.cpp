@@ -85,8 +85,7 @@ struct Window {
 };
 
 Window window_at(double speed, const net::Net& net, const net::Target& target, double spread, double ground) {
-  const double energy = 1.0 / (net.rebound * net.rebound) - 1.0, turned = speed / 0.85;
-  Window w{target.radius + turned * turned / (2.0 * net::kGravity * energy),
+  Window w{net::stopping_depth(speed, target.radius, net.rebound),
            net.rim() - net.clearance - ground - net::impact_drop(speed, target.mass)};
   w.least_depth = std::max(w.least_depth + kDepthSlack, depth_at(spread, net.stretch - 0.003));
   w.most_depth = std::min(w.most_depth - kDepthSlack, depth_at(spread, net::kLeastOpening + 0.002));

@@ -22,13 +22,14 @@ constexpr double kSoftKnee = 0.3, kSoftDecrease = 4e-3, kDecrease = 3e-3;
 constexpr int kPast = 3;
 // A catch happens at a time of the common clock: everybody's place in it hangs on the duration.
 constexpr double kDurationScale = 0.25;
-constexpr double kTighten = 0.015;      // longer pieces, more between samples
+constexpr double kTighten = 0.015;  // longer pieces, more between samples
 constexpr std::size_t kShareCars = 8;
 constexpr double kTick = 0.1334;  // of the time a car takes to drive its own length
 // One path for all: longer pieces than for a car among others, for nobody has to dodge anybody.
 constexpr FitOptions kFit{.piece_length = 2.4};
 constexpr double kPenaltyRaise = 3.0, kMostPenalty = 100.0;
 constexpr double kTightenRaise = 0.005, kMostTighten = 0.03;
+constexpr double kCorridorRaise = 0.001;                        // m, on top of what was missed
 constexpr double kHoldingRaise = 0.1;                           // m²
 constexpr double kNetRaise = 0.01, kCatchRaise = 0.003;         // m, likewise
 constexpr double kOpeningRaise = 0.004, kSidewaysRaise = 0.05;  // of the net at rest; m/s
@@ -171,14 +172,14 @@ void NetSession::polish(int rounds) {
     if (now > kHopeless || (round > 1 && now > kNearly && now > kProgress * before)) return;
     before = now;
     report("repair", static_cast<double>(round) / rounds);
-    raise_demands(round);
+    raise_demands();
     solve(false);
   }
   certify();
 }
 
 // Asks more where the certificate found fault.
-void NetSession::raise_demands(int round) {
+void NetSession::raise_demands() {
   const double length = units_.length;
   const std::size_t row = tasks_.size() + bodies_.size();
   bool net = false;
@@ -199,8 +200,8 @@ void NetSession::raise_demands(int round) {
       case certify::Kind::obstacle_clearance:
       case certify::Kind::bounds:
         demands_[a].penalty_scale = std::min(demands_[a].penalty_scale * kPenaltyRaise, kMostPenalty);
-        if (round > 0)
-          for (double& b : tasks_[a].corridor.b) b -= std::min(missed, kClearanceRaise * length);
+        for (double& b : tasks_[a].corridor.b)
+          b -= std::min(missed, kClearanceRaise * length) + kCorridorRaise;
         break;
       case certify::Kind::speed:
       case certify::Kind::reverse_speed:
@@ -210,7 +211,7 @@ void NetSession::raise_demands(int round) {
       case certify::Kind::steering_rate:
       case certify::Kind::gear:
         demands_[a].penalty_scale = std::min(demands_[a].penalty_scale * kPenaltyRaise, kMostPenalty);
-        if (round > 0) demands_[a].tighten = std::min(demands_[a].tighten + kTightenRaise, kMostTighten);
+        demands_[a].tighten = std::min(demands_[a].tighten + kTightenRaise, kMostTighten);
         break;
       case certify::Kind::net_drag:
         net_.spread_slack += missed + kNetRaise;
@@ -251,7 +252,9 @@ void NetSession::raise_catch(std::size_t target) {
   if (found.opening < net::kLeastOpening)
     task.least_opening += missing(found.opening, net::kLeastOpening) + kOpeningRaise;
   if (found.speed > net::speed_limit(found.depth, thrown.radius, net_.net.rebound)) {
-    task.most_radius -= kCatchRaise;
+    // Deeper where every corner is nearer: R² + D² stays as it is.
+    const double depth = net::stopping_depth(found.speed, thrown.radius, net_.net.rebound);
+    task.most_radius -= missing(found.depth, depth) * depth / task.most_radius + kCatchRaise;
     task.most_sideways -= kSidewaysRaise;
   }
   if (found.angle > net::kMaxAngle) task.most_sideways -= kSidewaysRaise;

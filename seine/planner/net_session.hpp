@@ -27,7 +27,7 @@ class NetSession {
   void solve(bool soft);
   bool certify();
   void polish(int rounds);
-  void raise_demands(int round);
+  void raise_demands();
   void raise_catch(std::size_t target);
   void report(const char* stage, double fraction) const;
   PlanResult finish();

@@ -129,6 +129,8 @@ std::vector<trajopt::RobotTask> fit_previous(const traj::TeamTrajectory& previou
       task.segments.push_back(segment_of(car.segments[part.segment], part));
       add_poses(car.segments[part.segment], part, poses);
     }
+    const trajopt::SegmentGuess& last = task.segments.back();
+    poses.push_back({last.points.back().x, last.points.back().y, last.end_heading});
     // A team that has left the old plan a little starts where it is.
     task.segments.front().points.front() = robot.start.position();
     task.segments.front().start_heading = robot.start.heading;

@@ -25,6 +25,7 @@ constexpr double kShapePrice = 0.3;                        // of v / a, s
 constexpr double kAcross = 0.4;  // sine of the angle to its direction at which a narrow shape is of use
 constexpr double kLateralShare = 0.8;
 constexpr double kLeastChange = 0.3;  // of the length that a change of shape is given
+constexpr double kSwerve = 2.0;       // a car's pace aside, of its pace ahead, while the shape changes
 constexpr double kStopShare = 0.6;    // of the acceleration limit, to stop after the last rendezvous
 
 struct Limits {
@@ -77,6 +78,7 @@ class Lattice {
   Move move_of(const Arc& arc) const;
   double cost_of(const Node& parent, const Move& move, int shape) const;
   bool begin_change(Node& node) const;
+  double change_needed(const Node& from, const Node& here) const;
   bool change_clear(const Node& node);
   void offer_shapes(const Entry& step, Vec2 forward);
   std::optional<Node> check(const Entry& step);
@@ -151,7 +153,21 @@ bool Lattice::begin_change(Node& here) const {
   here.held_since = from.s + step_;
   here.change = std::min(p_.change, here.held_since - from.held_since);
   if (here.phase > 0) here.change = std::min(here.change, from.after + step_ - p_.hold);
-  return here.change >= kLeastChange * p_.change;
+  return here.change >= std::max(kLeastChange * p_.change, change_needed(from, here));
+}
+
+// m over which the team must drive while its shape changes, lest a car falls back or swerves: its own way is
+// the frame's and that of its offset, which is fastest at half of the change, with a slope of 3/2.
+double Lattice::change_needed(const Node& from, const Node& here) const {
+  const Formation &old = shape(from.shape), &now = shape(here.shape);
+  const Vec2 ahead = static_cast<double>(here.move->arc.gear()) * here.stand.forward;
+  double needed = 0.0;
+  for (std::size_t k = 0; k < now.offsets.size(); ++k) {
+    const Vec2 shift = now.offsets[k] - old.offsets[k];
+    const double back = -geom::dot(shift, ahead), aside = std::abs(geom::cross(ahead, shift));
+    needed = std::max(needed, 1.5 * (aside / kSwerve + back));
+  }
+  return needed;
 }
 
 // The way back to where the change begins, with the cars between both shapes.

@@ -130,7 +130,8 @@ class Shapes {
     for (double lengthwise = longest(turn, across); lengthwise > kShortest; lengthwise -= kStep) {
       for (std::size_t k = 0; k < ring.size(); ++k)
         ring[k] = turned({lengthwise * turn.local[k].x, across * turn.local[k].y}, along);
-      if (!convex(ring) || !apart(ring)) return std::nullopt;
+      if (!convex(ring)) continue;
+      if (!apart(ring)) return std::nullopt;
       if (loaded_ && net::holding_reserve(net_, ring) < kHolding) continue;
       if (net_.rim() - depth_of(ring) < above + kGround) return std::nullopt;
       return formation_of(ring, along);

@@ -52,35 +52,41 @@ double RobotProblem::limits(double knee) {
 }
 
 double RobotProblem::corridor_cost(int piece, const Segment& s, CurveLanes& lanes, double knee) const {
-  const double weight = settings_.corridor_penalty * curve_weight_;
   double cost = 0.0;
   for (int lane = 0; lane < kCurveLanes; ++lane) {
     const auto sample = static_cast<std::size_t>(piece * kCurveLanes + lane),
                i = static_cast<std::size_t>(lane);
-    if (sample + 1 >= corridor_.begin.size()) break;
-    const int from = corridor_.begin[sample], to = corridor_.begin[sample + 1];
-    if (from == to) continue;
+    if (!corridor_.bounds(sample)) continue;
     const Vec2 p{lanes.px[i], lanes.py[i]}, d1{lanes.d1x[i], lanes.d1y[i]};
     const double inverse = 1.0 / geom::norm(d1);
     const Vec2 d = (s.gear * inverse) * d1;
     Vec2 g_p, g_d;
-    for (int plane = from; plane < to; ++plane) {
-      const auto k = static_cast<std::size_t>(plane);
-      const Vec2 normal{corridor_.nx[k], corridor_.ny[k]};
-      if (geom::dot(normal, p) + reach_ <= corridor_.b[k]) continue;
-      for (const Vec2 corner : footprint_) {
-        Vec2 gp, gd;
-        const double excess = constraint::corridor(p, d, corner, normal, corridor_.b[k], gp, gd);
-        if (excess <= 0.0) continue;
-        double slope;
-        cost += weight * math::hinge(excess, knee, slope);
-        g_p += (weight * slope) * gp;
-        g_d += (weight * slope) * gd;
-      }
-    }
+    cost += planes_cost(sample, p, d, knee, g_p, g_d);
     lanes.gpx[i] += g_p.x, lanes.gpy[i] += g_p.y;
     const Vec2 g1 = (s.gear * inverse) * (g_d - geom::dot(g_d, d) * d);
     lanes.g1x[i] += g1.x, lanes.g1y[i] += g1.y;
+  }
+  return cost;
+}
+
+// The corridor at one sample; adds to the gradient by position and direction.
+double RobotProblem::planes_cost(std::size_t sample, Vec2 p, Vec2 d, double knee, Vec2& g_p,
+                                 Vec2& g_d) const {
+  const double weight = settings_.corridor_penalty * curve_weight_;
+  double cost = 0.0;
+  for (int plane = corridor_.begin[sample]; plane < corridor_.begin[sample + 1]; ++plane) {
+    const auto k = static_cast<std::size_t>(plane);
+    const Vec2 normal{corridor_.nx[k], corridor_.ny[k]};
+    if (geom::dot(normal, p) + reach_ <= corridor_.b[k]) continue;
+    for (const Vec2 corner : footprint_) {
+      Vec2 gp, gd;
+      const double excess = constraint::corridor(p, d, corner, normal, corridor_.b[k], gp, gd);
+      if (excess <= 0.0) continue;
+      double slope;
+      cost += weight * math::hinge(excess, knee, slope);
+      g_p += (weight * slope) * gp;
+      g_d += (weight * slope) * gd;
+    }
   }
   return cost;
 }
@@ -192,6 +198,19 @@ double RobotProblem::rest_cost(double knee) {
     cost += curve_weight_ * math::hinge(bent, knee, slope);
     rest.g_kappa += curve_weight_ * slope * (rest.kappa < 0.0 ? -1.0 : 1.0) / kappa_max_;
   }
+  return cost + end_cost(knee);
+}
+
+// Other rests are the first sample of the segment that follows; a given end is what it is.
+double RobotProblem::end_cost(double knee) {
+  Rest& end = rests_.back();
+  const auto sample = static_cast<std::size_t>(pieces_ * kCurveLanes);
+  if (end.pose_variable < 0 || !corridor_.bounds(sample)) return 0.0;
+  const Vec2 d = end.now.direction();
+  Vec2 g_p, g_d;
+  const double cost = planes_cost(sample, end.now.position(), d, knee, g_p, g_d);
+  end.g_x += g_p.x, end.g_y += g_p.y;
+  end.g_heading += geom::dot(g_d, geom::left_normal(d));
   return cost;
 }
 

@@ -103,9 +103,12 @@ class RobotProblem {
   void load_segment(std::size_t index, std::span<const double> x);
   double limits(double knee);
   double corridor_cost(int piece, const Segment& segment, CurveLanes& lanes, double knee) const;
+  double planes_cost(std::size_t sample, geom::Vec2 position, geom::Vec2 direction, double knee,
+                     geom::Vec2& g_position, geom::Vec2& g_direction) const;
   double steering_cost(const Segment& segment, double knee, double& g_h);
   double smoothness();
   double rest_cost(double knee);
+  double end_cost(double knee);
   void pull_segment(std::size_t index, std::span<double> g);
   bool moving_start() const { return start_speed_ != 0.0; }
 

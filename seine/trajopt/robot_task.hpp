@@ -34,7 +34,8 @@ struct RobotTask {
   std::optional<geom::Pose2> goal;  ///< absent: the end pose is free
   bool fixed_cusps = false;         ///< gear changes stay where the guess has them
   std::vector<SegmentGuess> segments;
-  /// Half-planes at every curve sample: kCurveLanes a piece, pieces of all segments in a row.
+  /// Half-planes at every curve sample: kCurveLanes a piece, pieces of all segments in a row; where the end
+  /// is free, at the end pose as well.
   corridor::Corridor corridor;
 };
 

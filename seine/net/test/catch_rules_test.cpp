@@ -23,6 +23,8 @@ TEST(SpeedLimit, IsWhatWasMeasuredForNinetyPercentOpenNets) {
   }
   EXPECT_EQ(speed_limit(square, 0.08, 0.2), kMaxSpeed);
   EXPECT_EQ(speed_limit(0.05, 0.08, 0.2), 0.0);
+  for (const double speed : {2.0, 6.0, 10.5})
+    EXPECT_NEAR(speed_limit(stopping_depth(speed, 0.08, 0.2), 0.08, 0.2), speed, 1e-9);
 }
 
 TEST(ImpactDrop, GrowsWithSpeedAndTheRootOfTheMass) {

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "seine/base/rng.hpp"
 #include "seine/math/finite_difference.hpp"
@@ -32,8 +34,8 @@ SegmentGuess wavy(Rng& rng, geom::Pose2 from, int gear, double length, double wa
   return guess;
 }
 
-// Three cars that cross, with waits, a cusp, a moving start, corridors, a moving body and a steering-rate
-// limit: every term is active.
+// Three cars that cross, with waits, a cusp, a moving start, a free end, corridors, a moving body and a
+// steering-rate limit: every term is active.
 struct Busy {
   std::vector<RobotTask> robots;
   Body body;
@@ -62,15 +64,18 @@ void make_busy(std::uint64_t seed, bool rectangles, Busy& busy) {
       const auto& last = robot.segments.back();
       at = {last.points.back().x, last.points.back().y, last.end_heading};
     }
-    robot.goal = at;
+    if (k > 0) robot.goal = at;
+    std::vector<geom::Pose2> poses;
     for (const SegmentGuess& segment : robot.segments)
-      for (const geom::Pose2& pose : sample_poses(segment)) {
-        if (robot.corridor.begin.empty()) robot.corridor.begin.push_back(0);
-        const Vec2 n = geom::unit(pose.heading + 1.4);
-        robot.corridor.nx.push_back(n.x), robot.corridor.ny.push_back(n.y);
-        robot.corridor.b.push_back(geom::dot(n, pose.position()) + 0.15);
-        robot.corridor.begin.push_back(static_cast<int>(robot.corridor.nx.size()));
-      }
+      std::ranges::move(sample_poses(segment), std::back_inserter(poses));
+    poses.push_back(at);
+    robot.corridor.begin.push_back(0);
+    for (const geom::Pose2& pose : poses) {
+      const Vec2 n = geom::unit(pose.heading + 1.4);
+      robot.corridor.nx.push_back(n.x), robot.corridor.ny.push_back(n.y);
+      robot.corridor.b.push_back(geom::dot(n, pose.position()) + 0.15);
+      robot.corridor.begin.push_back(static_cast<int>(robot.corridor.nx.size()));
+    }
     busy.robots.push_back(std::move(robot));
   }
   for (const RobotTask& robot : busy.robots) task.robots.push_back(&robot);
