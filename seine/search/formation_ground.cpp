@@ -60,21 +60,30 @@ Vec2 FormationGround::middle(const Stand& frame, const Formation& formation) {
 }
 
 bool FormationGround::clear(const Stand& frame, const Formation& formation) {
-  const double clearance = p_.scenario->margins.obstacle + kCarSlack * length_;
-  for (std::size_t k = 0; k < p_.scenario->robots.size(); ++k) {
-    const Vec2 at = frame.at + formation.offsets[k];
-    // Most poses are far from everything, or plainly in it.
-    const Disc& disc = discs_[k];
-    const auto room = cars_.bounds(at + disc.ahead * frame.forward);
-    if (room.lower >= disc.outer + clearance) continue;
-    if (room.upper < disc.inner + clearance) return false;
-    polygon_.clear();
-    for (const Vec2 corner : p_.scenario->model_of(p_.scenario->robots[k]).footprint)
-      polygon_.push_back(at + turned(corner, frame.forward));
-    if (!p_.map->clear(polygon_, clearance)) return false;
+  // What was in the way of the pose before is so here as often as not.
+  const std::size_t count = p_.scenario->robots.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t k = i == 0 ? blocked_ : i <= blocked_ ? i - 1 : i;
+    if (car_clear(k, frame, formation)) continue;
+    blocked_ = k;
+    return false;
   }
   hold(frame, formation);
   return p_.tall->clear(attachments_, kNetSlack * length_) && clear_below(formation);
+}
+
+bool FormationGround::car_clear(std::size_t k, const Stand& frame, const Formation& formation) {
+  const double clearance = p_.scenario->margins.obstacle + kCarSlack * length_;
+  const Vec2 at = frame.at + formation.offsets[k];
+  // Most poses are far from everything, or plainly in it.
+  const Disc& disc = discs_[k];
+  const auto room = cars_.bounds(at + disc.ahead * frame.forward);
+  if (room.lower >= disc.outer + clearance) return true;
+  if (room.upper < disc.inner + clearance) return false;
+  polygon_.clear();
+  for (const Vec2 corner : p_.scenario->model_of(p_.scenario->robots[k]).footprint)
+    polygon_.push_back(at + turned(corner, frame.forward));
+  return p_.map->clear(polygon_, clearance);
 }
 
 // Whether the net, at attachments_, hangs above everything low that it is over.

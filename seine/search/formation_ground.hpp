@@ -46,6 +46,7 @@ class FormationGround {
 
  private:
   void hold(const Stand& frame, const Formation& formation);
+  bool car_clear(std::size_t k, const Stand& frame, const Formation& formation);
   bool clear_below(const Formation& formation) const;
 
   const FormationProblem& p_;
@@ -58,6 +59,7 @@ class FormationGround {
   std::unique_ptr<PointDistances> tall_;
   std::vector<std::unique_ptr<CostToGo>> fields_;  // to each rendezvous, then to the goal
   std::vector<geom::Vec2> polygon_, attachments_;
+  std::size_t blocked_ = 0;  // the car that stood in something last
 };
 
 }  // namespace seine::search

@@ -192,13 +192,14 @@ bool Lattice::drive_to(Node& here) {
   here.s = from.s + step_;
   here.after = from.after + step_;
   if (here.shape != from.shape) return begin_change(here) && change_clear(here);
-  for (std::size_t i = 0; i < kChecks; ++i) {
-    const Stand stand = stand_after(from.stand, here.move->way[i]);
-    if (!ground_.clear(stand, shape(here.shape))) return false;
-    while (here.phase < meetings() && here.shape == 0) {
+  // What is in the way of a step is most often at its end.
+  for (std::size_t i = kChecks; i-- > 0;)
+    if (!ground_.clear(stand_after(from.stand, here.move->way[i]), shape(here.shape))) return false;
+  for (std::size_t i = 0; i < kChecks && here.phase < meetings() && here.shape == 0; ++i) {
+    const Vec2 at = middle(stand_after(from.stand, here.move->way[i]), 0);
+    for (; here.phase < meetings(); ++here.phase) {
       const Rendezvous& meeting = p_.meetings[static_cast<std::size_t>(here.phase)];
-      if (geom::norm(middle(stand, 0) - meeting.point) > meeting.reach) break;
-      ++here.phase;
+      if (geom::norm(at - meeting.point) > meeting.reach) break;
       here.after = step_ * static_cast<double>(kChecks - 1 - i) / kChecks;
     }
   }
