@@ -12,9 +12,10 @@ namespace {
 using geom::Vec2;
 using search::Formation;
 
-constexpr double kGoalShare = 0.7;       // of the delivery's radius
-constexpr double kChangeLength = 5.0;    // car lengths over which the formation changes shape
-constexpr int kQuickExpansions = 500;    // as the crow flies, as at the start
+constexpr double kGoalShare = 0.7;     // of the delivery's radius
+constexpr double kChangeLength = 5.0;  // car lengths over which the formation changes shape
+constexpr int kQuickExpansions = 500;  // as the crow flies, as at the start
+constexpr int kPatience = 150;
 constexpr int kShapeExpansions = 6000;   // around what is tall, in shapes for narrow places too
 constexpr int kMostExpansions = 150000;  // the same, when that was not enough
 constexpr double kCoarseCell = 0.7;      // car lengths
@@ -112,8 +113,10 @@ FormationGuess FormationGuesser::assemble(search::FormationPath way) const {
 }
 
 std::optional<FormationGuess> FormationGuesser::guess(int attempt) {
-  search::FormationSettings settings{
-      .max_expansions = kQuickExpansions, .cell = kCoarseCell, .headings = kCoarseHeadings};
+  search::FormationSettings settings{.max_expansions = kQuickExpansions,
+                                     .patience = kPatience,
+                                     .cell = kCoarseCell,
+                                     .headings = kCoarseHeadings};
   if (attempt > 0) {
     if (!narrow_) offer_narrow_shapes();
     settings = {.max_expansions = kShapeExpansions, .field = true};

@@ -29,7 +29,7 @@ constexpr double kTick = 0.1334;  // of the time a car takes to drive its own le
 constexpr FitOptions kFit{.piece_length = 2.4};
 constexpr double kPenaltyRaise = 3.0, kMostPenalty = 100.0;
 constexpr double kTightenRaise = 0.005, kMostTighten = 0.03;
-constexpr double kCorridorRaise = 0.001;                        // m, on top of what was missed
+constexpr double kCorridorRaise = 0.001, kSpeedRaise = 0.003;   // m and m/s, on top of what was missed
 constexpr double kHoldingRaise = 0.1;                           // m²
 constexpr double kNetRaise = 0.01, kCatchRaise = 0.003;         // m, likewise
 constexpr double kOpeningRaise = 0.004, kSidewaysRaise = 0.05;  // of the net at rest; m/s
@@ -209,9 +209,11 @@ void NetSession::raise_demands() {
       case certify::Kind::lateral_acceleration:
       case certify::Kind::curvature:
       case certify::Kind::steering_rate:
-      case certify::Kind::gear:
         demands_[a].penalty_scale = std::min(demands_[a].penalty_scale * kPenaltyRaise, kMostPenalty);
         demands_[a].tighten = std::min(demands_[a].tighten + kTightenRaise, kMostTighten);
+        break;
+      case certify::Kind::gear:
+        demands_[a].least_speed += std::abs(v.value - v.limit) + kSpeedRaise;
         break;
       case certify::Kind::net_drag:
         net_.spread_slack += missed + kNetRaise;

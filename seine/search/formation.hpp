@@ -62,6 +62,7 @@ struct FormationProblem {
 
 struct FormationSettings {
   int max_expansions = 20000;
+  int patience = std::numeric_limits<int>::max();  ///< expansions in a row that come no nearer, at most
   double heuristic_weight = 1.3;
   /// Of poses nearer than this only the cheapest goes on: car lengths, and shares of a turn (at most 64).
   double cell = 0.5;

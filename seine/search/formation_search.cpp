@@ -304,6 +304,8 @@ std::optional<FormationPath> Lattice::run() {
   if (!std::isfinite(root.estimate)) return std::nullopt;
   nodes_.push_back(root);
   open_.push({root.estimate, 0, -1, -1});
+  double nearest = root.estimate;
+  int nearest_at = 0;
   for (int expansions = 0; !open_.empty() && expansions < s_.max_expansions;) {
     Entry entry = open_.pop();
     if (entry.move >= 0) {
@@ -320,6 +322,9 @@ std::optional<FormationPath> Lattice::run() {
     if (here.closed) continue;
     if (at_goal(here)) return path_to(entry.node);
     here.closed = true;
+    const double left = here.estimate - here.cost;
+    if (left < nearest) nearest = left, nearest_at = expansions;
+    if (expansions - nearest_at > s_.patience) break;
     if (++expansions % 64 == 0 && p_.deadline.expired()) break;
     expand(entry.node);
   }

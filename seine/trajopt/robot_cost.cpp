@@ -38,7 +38,7 @@ double RobotProblem::limits(double knee) {
                           &gcy_[static_cast<std::size_t>(piece)], pieces_);
     }
     const TimeWeights time{
-        s.h,  s.speed_limit, model_.limits.acceleration, model_.limits.lateral_acceleration,
+        s.h,  s.speed_limit, model_.limits.acceleration, model_.limits.lateral_acceleration, least_speed_,
         knee, sample_weight_};
     const auto begin = static_cast<std::size_t>(s.piece_begin);
     const CurveView view{&cx_[begin], &cy_[begin], &gcx_[begin], &gcy_[begin], pieces_, s.pieces};

@@ -55,6 +55,7 @@ RobotProblem::RobotProblem(const RobotTask& task, const Units& units, const Sett
   kappa_unit_ = task.model.max_curvature() * units.length;
   kappa_max_ = kappa_unit_ * (1.0 - settings.tighten - demand.tighten);
   start_speed_ = std::abs(task.start_speed) * units.time / units.length;
+  least_speed_ = demand.least_speed * units.time / units.length;
   for (const SegmentGuess& guess : task.segments) guess_.push_back(scaled(guess, units));
   corridor_ = task.corridor;
   for (double& b : corridor_.b) b /= units.length;

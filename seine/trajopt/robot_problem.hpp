@@ -34,6 +34,8 @@ struct ClockState {
 struct Demand {
   double penalty_scale = 1.0;
   double tighten = 0.0;  ///< on top of Settings::tighten
+  double least_speed =
+      0.0;  ///< m/s: that a moving car should have, where going backwards has to be ruled out
 };
 
 /// One car in the two-layer form (docs/trajectory.md): its variables, its own cost and limits, its pose on
@@ -116,7 +118,7 @@ class RobotProblem {
   Units units_;
   vehicle::Model model_;               // limits in units
   std::vector<geom::Vec2> footprint_;  // units
-  double reach_ = 0.0, kappa_max_ = 1.0, kappa_unit_ = 1.0, start_speed_ = 0.0, time_weight_ = 1.0,
+  double reach_ = 0.0, kappa_max_ = 1.0, kappa_unit_ = 1.0, start_speed_ = 0.0, least_speed_ = 0.0,
          sample_weight_ = 0.0, curve_weight_ = 0.0;
   std::vector<SegmentGuess> guess_;  // units
   std::vector<Segment> segments_;

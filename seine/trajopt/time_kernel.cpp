@@ -86,7 +86,8 @@ struct LimitGradient {
   double d, slope;
   double cost = math::hinge(constraint::speed(q.speed, weights.speed, d), knee, slope);
   g.speed = slope * d;
-  cost += kProgress * math::hinge(constraint::progress(q.speed, weights.speed, d), knee, slope);
+  cost += kProgress *
+          math::hinge(constraint::progress(q.speed - weights.least_speed, weights.speed, d), knee, slope);
   g.speed += kProgress * slope * d;
   cost +=
       math::hinge(constraint::tangential_acceleration(q.tangential, weights.acceleration, d), knee, slope);
