@@ -14,15 +14,17 @@ using search::Formation;
 
 constexpr double kGoalShare = 0.7;     // of the delivery's radius
 constexpr double kChangeLength = 5.0;  // car lengths over which the formation changes shape
-constexpr int kQuickExpansions = 500;  // as the crow flies, as at the start
-constexpr int kPatience = 150;
-constexpr int kShapeExpansions = 6000;   // around what is tall, in shapes for narrow places too
-constexpr int kMostExpansions = 150000;  // the same, when that was not enough
-constexpr double kCoarseCell = 0.7;      // car lengths
-constexpr int kCoarseHeadings = 20;
-constexpr double kCoarsestCell = 0.8;
-constexpr int kFewestHeadings = 16;
-constexpr double kGreedy = 2.5;    // weight of what is left, for a way soon instead of a fast one
+// As the crow flies and as at the start; then around what is tall, in shapes for narrow places too: first for
+// a way soon, with few poses, then for any, or for a better one; then the same with patience.
+constexpr search::FormationSettings kQuick{
+    .max_expansions = 500, .patience = 150, .step = 1.2, .cell = 0.7, .headings = 20};
+constexpr search::FormationSettings kGreedy{
+    .max_expansions = 6000, .heuristic_weight = 2.5, .step = 1.2, .cell = 0.8, .headings = 16, .field = true};
+constexpr search::FormationSettings kFine{.max_expansions = 6000, .heuristic_weight = 2.5, .field = true};
+constexpr search::FormationSettings kThorough{.max_expansions = 6000, .field = true};
+constexpr search::FormationSettings kPatient{
+    .max_expansions = 150000, .heuristic_weight = 2.5, .cell = 0.8, .headings = 16, .field = true};
+constexpr search::FormationSettings kPatientThorough{.max_expansions = 150000, .field = true};
 constexpr double kHoldPace = 0.8;  // of the top speed: how far a team drives while it holds a catch
 
 // Where every robot has a goal of its own the formation ends as they stand there.
@@ -112,28 +114,31 @@ FormationGuess FormationGuesser::assemble(search::FormationPath way) const {
   return guess;
 }
 
+// Nothing where an attempt would only find what one before has found, or would hardly find anything.
+std::optional<search::FormationSettings> FormationGuesser::settings_for(int attempt) const {
+  switch (attempt) {
+    case 0:
+      return kQuick;
+    case 1:
+      return kGreedy;
+    case 2:
+      return found_[1] ? kThorough : kFine;
+    case 3:
+      if (question_.meetings.empty() && found_[1]) return std::nullopt;
+      return kPatient;
+    default:
+      if (!found_[3] || (question_.meetings.empty() && found_[2])) return std::nullopt;
+      return kPatientThorough;
+  }
+}
+
 std::optional<FormationGuess> FormationGuesser::guess(int attempt) {
-  search::FormationSettings settings{.max_expansions = kQuickExpansions,
-                                     .patience = kPatience,
-                                     .cell = kCoarseCell,
-                                     .headings = kCoarseHeadings};
-  if (attempt > 0) {
-    if (!narrow_) offer_narrow_shapes();
-    settings = {.max_expansions = kShapeExpansions, .field = true};
-    const bool first = attempt % 2 == 1;
-    if (first) settings.cell = kCoarsestCell, settings.headings = kFewestHeadings;
-    const bool before = found_[static_cast<std::size_t>(attempt - 1)];
-    if (attempt == 4 && !before) return std::nullopt;
-    if (first || !before) settings.heuristic_weight = kGreedy;
-  }
-  if (attempt >= 3) {
-    // The optimiser holds the net open longer than the guess did, if it has to. Where there is no catch the
-    // way would be the one that was found before.
-    if (question_.meetings.empty() && found_[static_cast<std::size_t>(attempt - 2)]) return std::nullopt;
-    search_.set_hold(0.0);
-    settings.max_expansions = kMostExpansions;
-  }
-  auto way = search_.find(settings);
+  const auto settings = settings_for(attempt);
+  if (!settings) return std::nullopt;
+  if (attempt > 0 && !narrow_) offer_narrow_shapes();
+  // The optimiser holds the net open longer than the guess did, if it has to.
+  if (attempt >= 3) search_.set_hold(0.0);
+  auto way = search_.find(*settings);
   if (!way) return std::nullopt;
   found_[static_cast<std::size_t>(attempt)] = true;
   return assemble(std::move(*way));

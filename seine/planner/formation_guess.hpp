@@ -23,6 +23,7 @@ class FormationGuesser {
   std::optional<FormationGuess> guess(int attempt);
 
  private:
+  std::optional<search::FormationSettings> settings_for(int attempt) const;
   void offer_narrow_shapes();
   FormationGuess assemble(search::FormationPath way) const;
 

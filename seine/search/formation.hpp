@@ -64,6 +64,7 @@ struct FormationSettings {
   int max_expansions = 20000;
   int patience = std::numeric_limits<int>::max();  ///< expansions in a row that come no nearer, at most
   double heuristic_weight = 1.3;
+  double step = 0.8;  ///< car lengths
   /// Of poses nearer than this only the cheapest goes on: car lengths, and shares of a turn (at most 64).
   double cell = 0.5;
   int headings = 32;

@@ -13,7 +13,7 @@ using geom::Vec2;
 
 // Car lengths; docs/net-planning.md has the measurements.
 constexpr double kCarSlack = 0.05, kNetSlack = 0.05;  // on top of the margins
-constexpr double kCell = 0.15, kFar = 2.0;            // of the distances for cars
+constexpr double kCell = 0.3, kFar = 2.0;             // of the distances for cars
 
 Vec2 turned(Vec2 v, Vec2 by) {
   return {by.x * v.x - by.y * v.y, by.y * v.x + by.x * v.y};
@@ -109,7 +109,7 @@ void FormationGround::find_ways(std::span<const Formation> shapes) {
   }
   radius = std::max(0.8 * radius, 0.2 * length_);
   fields_.clear();
-  tall_ = std::make_unique<PointDistances>(*p_.tall, 0.5 * radius, 4.0 * radius);
+  tall_ = std::make_unique<PointDistances>(*p_.tall, 0.7 * radius, 4.0 * radius);
   const DiscWay way{.distances = tall_.get(), .radius = radius};
   // Asked about mostly on the way from the place before.
   Vec2 from = middle(stand_at(p_.start), shapes.front());

@@ -15,7 +15,6 @@ using geom::Vec2;
 using vehicle::Arc;
 
 // Lengths in car lengths unless said otherwise; docs/net-planning.md has the measurements.
-constexpr double kStep = 0.8;
 constexpr double kSlice = 0.01;  // of a car length at top speed: estimates this near are alike
 constexpr double kForwardTurns[] = {0.0, 0.22, -0.22, 0.5, -0.5, 0.88, -0.88};  // of κ_max
 constexpr double kBackwardTurns[] = {0.0, 0.5, -0.5, 0.88, -0.88};
@@ -56,7 +55,7 @@ class Lattice {
         ground_(ground),
         scenario_(*problem.scenario),
         limits_(limits_of(scenario_)),
-        step_(kStep * limits_.length),
+        step_(settings.step * limits_.length),
         cell_(settings.cell * limits_.length),
         open_(kSlice * limits_.length / limits_.speed) {
     const auto fan = [&](std::span<const double> turns, double distance) {

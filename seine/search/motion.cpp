@@ -144,7 +144,7 @@ double FootprintChecker::near_room(const geom::Pose2& pose, double map_room) con
     polygon = heap;
   }
   geom::place(model_->footprint, pose, polygon);
-  if (map_room < 0.0) map_room = map_->nearest(polygon, clearance_ + look_).distance - clearance_;
+  if (map_room < 0.0) map_room = map_->distance(polygon, clearance_ + look_) - clearance_;
   if (map_room < 0.0 || parked_.empty()) return map_room;
   return parked_room(pose, polygon, map_room);
 }

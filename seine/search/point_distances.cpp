@@ -28,7 +28,7 @@ PointDistances::PointDistances(const world::StaticMap& map, double cell, double 
 
 float PointDistances::compute(int column, int row) const {
   const std::array<geom::Vec2, 1> point{middle(column, row)};
-  return static_cast<float>(map_->nearest(point, cap_).distance - kRounding);
+  return static_cast<float>(map_->distance(point, cap_) - kRounding);
 }
 
 double PointDistances::at(int column, int row) const {

@@ -40,7 +40,7 @@ double Surroundings::clearance(double time, std::span<const Pose2> poses) const 
   std::vector<Convex> cars;
   for (std::size_t k = 0; k < poses.size(); ++k) {
     cars.push_back(geom::placed({scenario_.model_of(scenario_.robots[k]).footprint, 0.0}, poses[k]));
-    least = std::min(least, map_.nearest(cars[k].core, kFarEnough).distance);
+    least = std::min(least, map_.distance(cars[k].core, kFarEnough));
     least = std::min(least, to_movers(time, cars[k]));
     for (std::size_t j = 0; j < k; ++j)
       least = std::min(least, geom::distance_up_to(cars[j].core, cars[k].core, kFarEnough));

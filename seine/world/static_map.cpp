@@ -224,10 +224,9 @@ void StaticMap::improve(std::span<const Vec2> polygon, const Box& box, double re
   }
 }
 
-StaticMap::Nearest StaticMap::nearest(std::span<const Vec2> polygon, double cap) const {
-  const geom::Separation wall = to_bounds(polygon, bounds_);
+StaticMap::Best StaticMap::find_nearest(std::span<const Vec2> polygon, double within) const {
   const Box box = geom::bounding_box(polygon);
-  Best best{std::min(cap, wall.distance), -1};
+  Best best{within, -1};
   // Look close by first: in a dense map the rest then need not be looked at.
   for (double reach = std::min(best.distance, bucket_);; reach = std::min(best.distance, 4.0 * reach)) {
     improve(polygon, box, reach, best);
@@ -241,6 +240,16 @@ StaticMap::Nearest StaticMap::nearest(std::span<const Vec2> polygon, double cap)
       break;
     }
   }
+  return best;
+}
+
+double StaticMap::distance(std::span<const Vec2> polygon, double cap) const {
+  return find_nearest(polygon, std::min(cap, to_bounds(polygon, bounds_).distance)).distance;
+}
+
+StaticMap::Nearest StaticMap::nearest(std::span<const Vec2> polygon, double cap) const {
+  const geom::Separation wall = to_bounds(polygon, bounds_);
+  const Best best = find_nearest(polygon, std::min(cap, wall.distance));
   if (best.piece >= 0) {
     const geom::Convex& shape = pieces_[static_cast<std::size_t>(best.piece)].shape;
     geom::Separation separation = geom::separation(polygon, std::span<const Vec2>(shape.core));

@@ -44,6 +44,8 @@ class StaticMap {
   /// Looks no further than `cap` metres; an infinite cap is allowed. Ties go to the lower index, and to
   /// pieces before bounds.
   Nearest nearest(std::span<const geom::Vec2> polygon, double cap) const;
+  /// Its distance alone.
+  double distance(std::span<const geom::Vec2> polygon, double cap) const;
   /// Distance only: true when the polygon keeps `clearance` (m) to every piece and to the bounds, to within a
   /// nanometre.
   bool clear(std::span<const geom::Vec2> polygon, double clearance) const;
@@ -84,6 +86,7 @@ class StaticMap {
     int piece;
   };
   // Replaces `best` by a piece that is nearer, of those within `reach` of the box (ties: the lower index).
+  Best find_nearest(std::span<const geom::Vec2> polygon, double within) const;
   void improve(std::span<const geom::Vec2> polygon, const geom::Box& box, double reach, Best& best) const;
   bool piece_clear(std::size_t piece, std::span<const geom::Vec2> polygon, double clearance) const;
 
