@@ -2,7 +2,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <unordered_map>
 
 #include "seine/search/formation_steps.hpp"
 #include "seine/vehicle/arc.hpp"
@@ -56,7 +55,8 @@ class Lattice {
         scenario_(*problem.scenario),
         limits_(limits_of(scenario_)),
         step_(settings.step * limits_.length),
-        cell_(settings.cell * limits_.length),
+        per_cell_(1.0 / (settings.cell * limits_.length)),
+        per_heading_(settings.headings / (2.0 * std::numbers::pi)),
         open_(kSlice * limits_.length / limits_.speed) {
     const auto fan = [&](std::span<const double> turns, double distance) {
       for (const double turn : turns) moves_.push_back(move_of({turn * limits_.curvature, distance}));
@@ -95,13 +95,13 @@ class Lattice {
   FormationGround& ground_;
   const world::Scenario& scenario_;
   Limits limits_;
-  double step_, cell_;
+  double step_, per_cell_, per_heading_;
   std::vector<Move> moves_;
   std::vector<double> beyond_;  // per phase: m from the next place to the end of the way, at least
   Formation between_;           // room
   std::vector<Node> nodes_;
   Waiting open_;
-  std::unordered_map<std::uint64_t, int> bins_;
+  Bins bins_;
 };
 
 void Lattice::legs_ahead() {
@@ -231,15 +231,14 @@ std::uint64_t Lattice::bin(const Node& n) const {
   const auto index = [](double value) {
     return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(value)) + (1 << 20));
   };
-  const double slice = 2.0 * std::numbers::pi / s_.headings;
-  const auto heading = static_cast<std::int64_t>(std::floor(n.stand.heading / slice + 0.5));
+  const auto heading = static_cast<std::int64_t>(std::floor(n.stand.heading * per_heading_ + 0.5));
   const std::int64_t turn = (heading % s_.headings + s_.headings) % s_.headings;
   // Which narrow shape leads to a pose matters little; told apart, they would only be searched many times.
   // Without a goal the way goes on after the last rendezvous until the team can stop.
   const bool stopping = n.phase == meetings() && !p_.goal;
   const auto phase = static_cast<std::uint64_t>(n.phase + (stopping ? static_cast<int>(n.after / step_) : 0));
-  return (index((n.stand.at.x - p_.start.x) / cell_ + 0.5) << 42) |
-         (index((n.stand.at.y - p_.start.y) / cell_ + 0.5) << 20) | phase << 8 |
+  return (index((n.stand.at.x - p_.start.x) * per_cell_ + 0.5) << 42) |
+         (index((n.stand.at.y - p_.start.y) * per_cell_ + 0.5) << 20) | phase << 8 |
          static_cast<std::uint64_t>(2 * turn + (n.move != nullptr && n.move->arc.gear() < 0 ? 1 : 0)) |
          (n.shape == 0 ? 0 : std::uint64_t{1} << 14);
 }
@@ -262,8 +261,8 @@ std::optional<Node> Lattice::check(const Entry& step) {
   here.cost = cost_of(parent, *here.move, step.shape);
   here.parent = step.node, here.shape = step.shape;
   here.closed = false;
-  const auto known = bins_.find(bin(here));
-  if (known != bins_.end() && node(known->second).cost <= here.cost) return std::nullopt;
+  const int known = bins_.at(bin(here));
+  if (known >= 0 && node(known).cost <= here.cost) return std::nullopt;
   if (!drive_to(here)) {
     if (here.shape == parent.shape) offer_shapes(step, here.stand.forward);
     return std::nullopt;
@@ -275,13 +274,12 @@ std::optional<Node> Lattice::check(const Entry& step) {
 
 // The cheapest in its bin?
 bool Lattice::keep(const Node& here) {
-  const auto index = static_cast<int>(nodes_.size());
-  const auto [in_bin, fresh] = bins_.try_emplace(bin(here), index);
-  if (!fresh) {
-    if (node(in_bin->second).cost <= here.cost) return false;
-    node(in_bin->second).closed = true;
-    in_bin->second = index;
+  int& cheapest = bins_.at(bin(here));
+  if (cheapest >= 0) {
+    if (node(cheapest).cost <= here.cost) return false;
+    node(cheapest).closed = true;
   }
+  cheapest = static_cast<int>(nodes_.size());
   nodes_.push_back(here);
   return std::isfinite(here.estimate);
 }

@@ -42,6 +42,46 @@ struct Entry {
   std::int16_t move, shape;  ///< of the step; −1 for a node
 };
 
+/// Which node is the cheapest in a bin of poses. A search looks far more often than it adds, mostly in vain:
+/// a table with open addressing has one cache miss for that.
+class Bins {
+ public:
+  /// The bin's place for a node's index; −1 where there is none yet. Good until the next call.
+  int& at(std::uint64_t bin) {
+    if (3 * used_ >= 2 * slots_.size()) grow();
+    Slot& slot = slot_of(bin);
+    if (slot.node < 0) {
+      used_ += slot.bin == kNone ? 1 : 0;
+      slot.bin = bin;
+    }
+    return slot.node;
+  }
+
+ private:
+  static constexpr std::uint64_t kNone = ~std::uint64_t{0};
+  struct Slot {
+    std::uint64_t bin = kNone;
+    int node = -1;
+  };
+
+  Slot& slot_of(std::uint64_t bin) {
+    std::size_t i = static_cast<std::size_t>(bin * 0x9e3779b97f4a7c15ULL >> shift_);
+    while (slots_[i].bin != bin && slots_[i].bin != kNone) i = (i + 1) & (slots_.size() - 1);
+    return slots_[i];
+  }
+  void grow() {
+    std::vector<Slot> old(2 * slots_.size());
+    std::swap(old, slots_);
+    --shift_;
+    for (const Slot& slot : old)
+      if (slot.bin != kNone) slot_of(slot.bin) = slot;
+  }
+
+  std::vector<Slot> slots_ = std::vector<Slot>(std::size_t{1} << 12);
+  int shift_ = 64 - 12;
+  std::size_t used_ = 0;
+};
+
 /// Lowest estimate first, in slices of a few milliseconds; in a slice whoever came last, for it is furthest
 /// on.
 class Waiting {
