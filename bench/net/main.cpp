@@ -20,6 +20,7 @@ namespace {
 
 constexpr double kDeadline = 20.0;  // s
 constexpr int kCarries = 20;
+constexpr int kRuns = 3;                            // of every task
 constexpr double kNudge = 0.12, kNudgeTime = 0.03;  // m and s: what a better estimate changes
 
 using Make = std::function<std::optional<world::Scenario>(std::uint64_t)>;
@@ -43,6 +44,17 @@ struct Tally {
 planner::PlanResult plan(const world::Scenario& scenario, planner::Options options) {
   options.deadline_s = kDeadline;
   return planner::plan(scenario, options);
+}
+
+// The same plan every time, and the run whose time is the median: what else the machine did is not of
+// interest.
+planner::PlanResult timed(const world::Scenario& scenario, planner::Options options) {
+  options.deadline_s = kDeadline;
+  std::vector<planner::PlanResult> runs;
+  for (int i = 0; i < kRuns; ++i) runs.push_back(planner::plan(scenario, options));
+  std::sort(runs.begin(), runs.end(),
+            [](const auto& a, const auto& b) { return a.times.compute < b.times.compute; });
+  return std::move(runs[kRuns / 2]);
 }
 
 bool proved_impossible(const planner::PlanResult& result) {
@@ -71,9 +83,10 @@ void add(Tally& tally, const planner::PlanResult& result, std::uint64_t seed) {
 void print(const std::string& name, const Tally& t) {
   double mean = 0.0;
   for (const double m : t.makespan) mean += m / static_cast<double>(t.makespan.size());
-  std::printf("%-22s %3d of %3d  %7.1f %8.1f  %7.1f %8.1f %8.2f  %8.2f\n", name.c_str(), t.certified,
-              t.asked - t.impossible, median(t.compute), largest(t.compute), median(t.guess),
-              median(t.optimise), median(t.certify), mean);
+  std::printf("%-22s %3d of %3d  %7.1f %8.1f %6.1f  %7.1f %8.1f %8.2f  %8.2f\n", name.c_str(), t.certified,
+              t.asked - t.impossible, median(t.compute), largest(t.compute),
+              largest(t.compute) / median(t.compute), median(t.guess), median(t.optimise), median(t.certify),
+              mean);
   if (t.impossible > 0) std::printf("    and %d proved impossible\n", t.impossible);
   if (!t.first_failure.empty()) std::printf("    %s\n", t.first_failure.c_str());
   std::fflush(stdout);
@@ -83,7 +96,7 @@ Tally run(int instances, const Make& make) {
   Tally tally;
   for (int seed = 0; seed < instances; ++seed) {
     const auto scenario = make(static_cast<std::uint64_t>(seed));
-    if (scenario) add(tally, plan(*scenario, {}), static_cast<std::uint64_t>(seed));
+    if (scenario) add(tally, timed(*scenario, {}), static_cast<std::uint64_t>(seed));
   }
   return tally;
 }
@@ -100,7 +113,7 @@ void replan(int robots, int instances) {
     target.position.x += rng.uniform(-kNudge, kNudge);
     target.position.y += rng.uniform(-kNudge, kNudge);
     target.time = std::max(0.0, target.time + rng.uniform(-kNudgeTime, kNudgeTime));
-    add(tally, plan(scenario, {.previous = &first.plan}), static_cast<std::uint64_t>(seed));
+    add(tally, timed(scenario, {.previous = &first.plan}), static_cast<std::uint64_t>(seed));
   }
   print("replan, " + std::to_string(robots) + " cars", tally);
 }
@@ -115,15 +128,16 @@ void carries() {
     Tally tally;
     for (std::uint64_t seed = 0; tally.asked < kCarries && seed < 10 * kCarries; ++seed)
       if (const auto scenario = carry_scene(grids[seed % grids.size()], robots, seed))
-        add(tally, plan(*scenario, {}), seed);
+        add(tally, timed(*scenario, {}), seed);
     print("carry in buildings, " + std::to_string(robots), tally);
   }
 }
 
 void catches(int instances) {
   std::printf(
-      "%-22s certified   compute ms         guess  optimise  certify  travel s\n%-22s             median  "
-      "slowest    (medians, ms)                mean\n",
+      "%-22s certified   compute ms                guess  optimise  certify  travel s\n%-22s             "
+      "median  "
+      "slowest  ratio    (medians, ms)                mean\n",
       "", "");
   for (const int robots : {3, 4, 6})
     print("throw, " + std::to_string(robots) + " cars",
