@@ -19,7 +19,7 @@ constexpr int kPolishRounds = 6, kGoOnRounds = 3;
 constexpr double kHopeless = 1.0, kProgress = 0.6, kNearly = 0.05;
 // Travel is 2 % longer than with the defaults, iterations are a third as many (docs/net-planning.md).
 constexpr double kSoftKnee = 0.3, kSoftDecrease = 4e-3, kDecrease = 3e-3;
-constexpr int kPast = 3;
+constexpr int kPast = 3, kSoftEvaluations = 60;
 // A catch happens at a time of the common clock: everybody's place in it hangs on the duration.
 constexpr double kDurationScale = 0.25;
 constexpr double kTighten = 0.015;  // longer pieces, more between samples
@@ -118,6 +118,7 @@ void NetSession::prepare() {
   settings_ = {};
   settings_.tighten = kTighten, settings_.soft_knee = kSoftKnee, settings_.past = kPast;
   settings_.soft_decrease = kSoftDecrease, settings_.stiff_decrease = kDecrease;
+  settings_.soft_evaluations = kSoftEvaluations;
   settings_.duration_scale = kDurationScale;
   net_ = question_.task;
   demands_.assign(tasks_.size(), {});
