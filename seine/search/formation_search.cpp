@@ -17,9 +17,9 @@ using vehicle::Arc;
 constexpr double kSlice = 0.01;  // of a car length at top speed: estimates this near are alike
 constexpr double kForwardTurns[] = {0.0, 0.22, -0.22, 0.5, -0.5, 0.88, -0.88};  // of κ_max
 constexpr double kBackwardTurns[] = {0.0, 0.5, -0.5, 0.88, -0.88};
-constexpr double kCurvedPrice = 0.02;                      // share of a step's time
-constexpr double kSteeringPrice = 0.05, kGearPrice = 1.0;  // of v / a, s
-constexpr double kShapePrice = 0.3;                        // of v / a, s
+constexpr double kCurvedPrice = 0.02, kBackwardPrice = 0.4;  // shares of a step's time
+constexpr double kSteeringPrice = 0.05, kGearPrice = 1.0;    // of v / a, s
+constexpr double kShapePrice = 0.3;                          // of v / a, s
 constexpr double kAcross = 0.4;  // sine of the angle to its direction at which a narrow shape is of use
 constexpr double kLateralShare = 0.8;
 constexpr double kLeastChange = 0.3;  // of the length that a change of shape is given
@@ -129,7 +129,8 @@ Move Lattice::move_of(const Arc& arc) const {
   const double top = arc.distance > 0.0 ? limits_.speed : limits_.reverse_speed;
   const double bend = std::abs(arc.curvature);
   const double speed = bend > 0.0 ? std::min(top, std::sqrt(kLateralShare * limits_.lateral / bend)) : top;
-  Move move{arc, std::abs(arc.distance) / speed * (bend > 0.0 ? 1.0 + kCurvedPrice : 1.0), {}};
+  const double dearer = (bend > 0.0 ? kCurvedPrice : 0.0) + (arc.distance < 0.0 ? kBackwardPrice : 0.0);
+  Move move{arc, std::abs(arc.distance) / speed * (1.0 + dearer), {}};
   for (int i = 0; i < kChecks; ++i)
     move.way[static_cast<std::size_t>(i)] =
         stand_at(vehicle::drive(Pose2{}, arc.curvature, arc.distance * (i + 1) / kChecks));
