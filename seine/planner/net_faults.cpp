@@ -8,7 +8,8 @@ namespace {
 
 using certify::Kind;
 
-constexpr double kDistance = 0.1, kShare = 0.5, kSpeed = 0.1, kOpening = 0.05, kReserve = 1.0;
+constexpr double kDistance = 0.1, kShare = 0.5, kCatchShare = 0.1, kSpeed = 0.1, kOpening = 0.05,
+                 kReserve = 1.0;
 
 double severity_of(const certify::Violation& v) {
   const double missed = std::abs(v.value - v.limit);
@@ -26,6 +27,8 @@ double severity_of(const certify::Violation& v) {
       return missed / kOpening;
     case Kind::net_holding:
       return missed / kReserve;
+    case Kind::target_catch:  // a margin in metres, an opening, or a speed
+      return missed / std::max(kDistance, kCatchShare * v.limit);
     default:
       return missed / kDistance;
   }

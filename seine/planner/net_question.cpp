@@ -18,10 +18,11 @@ using geom::Vec2;
 constexpr int kDirections = 64;
 // An obstacle is low when the loaded net clears it at this opening.
 constexpr double kPassOpening = 0.92;
-// What the optimiser keeps of the windows that the certificate checks, m and m/s.
 // Low obstacles this much beyond the net's reach count at a catch, m.
 constexpr double kNearCatch = 0.15;
-constexpr double kDepthSlack = 0.008, kSpeedSlack = 0.1;
+// What the optimiser keeps of the windows that the certificate checks, m and m/s; a fast object's depth is
+// always at its limit, where a penalty gives way a little.
+constexpr double kDepthSlack = 0.008, kRadiusSlack = 0.005, kSpeedSlack = 0.1;
 // What keeps the load in the net, m² (docs/net.md), and at most this share of what a wide open net has.
 constexpr double kHoldingReserve = 0.3, kReserveShare = 0.7;
 // Sideways speed asked for on top of what the guess expects, m/s.
@@ -191,7 +192,8 @@ class Asking {
     task.least_opening = net::kLeastOpening;
     task.held_opening = kHeldOpen, task.hold = net::kHoldTime;
     task.least_spread = std::sqrt(std::max(0.0, spread_ * spread_ - most_depth_ * most_depth_));
-    task.most_radius = std::sqrt(std::max(0.0, spread_ * spread_ - least_depth_ * least_depth_));
+    task.most_radius =
+        std::sqrt(std::max(0.0, spread_ * spread_ - least_depth_ * least_depth_)) - kRadiusSlack;
     question_.task.catches.push_back(task);
     const double room = 0.92 * inradius(net_.rest) - task.margin;
     question_.meetings.push_back({point + 0.5 * task.contact_delay * (velocity - drive),
