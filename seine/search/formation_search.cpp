@@ -110,10 +110,9 @@ void Lattice::legs_ahead() {
   for (std::size_t i = count; i-- > 0;) {
     const bool last = i + 1 == count;
     if (last && !p_.goal) continue;
-    const Vec2 next = last ? p_.goal->center : p_.meetings[i + 1].point;
     const double radius = last ? p_.goal->radius : p_.meetings[i + 1].reach;
-    beyond_[i] = beyond_[i + 1] +
-                 std::max(0.0, geom::norm(next - p_.meetings[i].point) - radius - p_.meetings[i].reach);
+    const double way = ground_.to(i + 1, p_.meetings[i].point, s_.field);
+    beyond_[i] = beyond_[i + 1] + std::max(0.0, way - radius - p_.meetings[i].reach);
   }
 }
 
