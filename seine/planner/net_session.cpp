@@ -22,7 +22,7 @@ constexpr double kSoftKnee = 0.3, kSoftDecrease = 4e-3, kDecrease = 3e-3;
 constexpr int kPast = 3, kSoftEvaluations = 60;
 // A catch happens at a time of the common clock: everybody's place in it hangs on the duration.
 constexpr double kDurationScale = 0.25;
-constexpr double kTighten = 0.015;  // longer pieces, more between samples
+constexpr double kTighten = 0.021;  // longer pieces, more between samples
 constexpr std::size_t kShareCars = 8;
 constexpr double kTick = 0.1334;  // of the time a car takes to drive its own length
 // One path for all: longer pieces than for a car among others, for nobody has to dodge anybody.
