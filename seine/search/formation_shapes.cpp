@@ -15,11 +15,11 @@ namespace {
 using geom::Vec2;
 
 constexpr std::size_t kDirections = 8;
-constexpr double kTurns[] = {0.0, 1.0, -1.0, 2.0, -2.0};         // of π / 2N
-constexpr double kReach = 0.985;                                 // of the stretch limit
-constexpr double kConvex = 0.12, kGround = 0.03, kApart = 0.06;  // m, kept on top of what is asked
-constexpr double kHolding = 0.3;                                 // m², of net::holding_reserve
-constexpr double kCoarse = 3.0;
+constexpr double kTurns[] = {0.0, 1.0, -1.0, 2.0, -2.0};             // of π / 2N
+constexpr double kReach = 0.985;                                     // of the stretch limit
+constexpr double kConvex = 0.12, kGround = 0.03, kApart = 0.06;      // m, kept on top of what is asked
+constexpr double kHolding = 0.3;                                     // m², of net::holding_reserve
+constexpr double kCoarse = 3.0;                                      // short steps in a long one
 constexpr double kNarrowest = 0.45, kShortest = 0.75, kStep = 0.02;  // scales of the net at rest
 
 Vec2 turned(Vec2 v, Vec2 by) {
@@ -87,7 +87,7 @@ class Shapes {
     std::optional<Formation> best;
     double least = std::numeric_limits<double>::infinity();
     for (const Turned& turn : turns_for(along)) {
-      // A team is no narrower than its net.
+      // A team is hardly ever narrower than its net.
       const double widest = std::min(net_.stretch, least / turn.width);
       auto shape = first_safe(turn, kNarrowest, widest, kCoarse * kStep, along, above);
       if (!shape) continue;
