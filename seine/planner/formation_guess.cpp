@@ -19,7 +19,7 @@ constexpr double kChangeLength = 5.0;  // car lengths over which the formation c
 constexpr search::FormationSettings kQuick{
     .max_expansions = 500, .patience = 150, .step = 1.2, .cell = 0.7, .headings = 20};
 constexpr search::FormationSettings kGreedy{
-    .max_expansions = 6000, .heuristic_weight = 2.5, .step = 1.2, .cell = 0.8, .headings = 16, .field = true};
+    .max_expansions = 6000, .heuristic_weight = 2.5, .step = 1.2, .cell = 0.9, .headings = 14, .field = true};
 constexpr search::FormationSettings kFine{.max_expansions = 6000, .heuristic_weight = 2.5, .field = true};
 constexpr search::FormationSettings kThorough{.max_expansions = 6000, .field = true};
 constexpr search::FormationSettings kPatient{
