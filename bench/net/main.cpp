@@ -144,9 +144,8 @@ void carries() {
 
 void catches(int instances) {
   std::printf(
-      "%-22s certified   compute ms                guess  optimise  certify  travel s\n%-22s             "
-      "median  "
-      "slowest  ratio    (medians, ms)                mean\n",
+      "%-22s certified   compute ms                guess  optimise  certify  travel s\n"
+      "%-22s             median  slowest  ratio    (medians, ms)                mean\n",
       "", "");
   for (const int robots : {3, 4, 6})
     print("throw, " + std::to_string(robots) + " cars",

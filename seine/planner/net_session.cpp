@@ -17,10 +17,10 @@ namespace {
 constexpr int kPolishRounds = 6, kGoOnRounds = 3;
 // A plan that is worse than this, or that no round brings closer by so much, is not going to hold.
 constexpr double kHopeless = 1.0, kProgress = 0.6, kNearly = 0.05;
-// Travel is 2 % longer than with the defaults, iterations are a third as many (docs/net-planning.md).
+// Fewer evaluations than with the defaults, for hardly longer travel (docs/net-planning.md).
 constexpr double kSoftKnee = 0.3, kSoftDecrease = 4e-3, kDecrease = 3e-3;
 constexpr int kPast = 3, kSoftEvaluations = 60;
-// A catch happens at a time of the common clock: everybody's place in it hangs on the duration.
+// A catch happens at a time of the common clock: where everybody is then hangs on the duration.
 constexpr double kDurationScale = 0.25;
 constexpr double kTighten = 0.021;  // longer pieces, more between samples
 constexpr std::size_t kShareCars = 8;

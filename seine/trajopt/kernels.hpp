@@ -37,7 +37,7 @@ void curve_piece_adjoint(const CurveLanes& lanes, double* gcx, double* gcy, int 
 struct TimeWeights {
   double piece_duration;                ///< h
   double speed, acceleration, lateral;  ///< limits, tightened; `speed` is of the segment's gear
-  double least_speed;
+  double least_speed;                   ///< of a moving car; 0: just not against its gear
   double knee;
   double weight;  ///< of one sample's hinge
 };
