@@ -13,12 +13,15 @@
 #include "apps/seine/bench_rows.hpp"
 #include "apps/seine/bench_table.hpp"
 #include "apps/seine/command.hpp"
+#include "apps/seine/everyday_table.hpp"
 #include "apps/seine/progress_line.hpp"
 #include "seine/base/deadline.hpp"
 #include "seine/base/error.hpp"
 #include "seine/io/map_file.hpp"
 #include "seine/io/scenario_file.hpp"
 #include "seine/planner/planner.hpp"
+#include "seine/vehicle/catalogue.hpp"
+#include "seine/world/everyday.hpp"
 #include "seine/world/families.hpp"
 
 namespace seine::app {
@@ -30,12 +33,14 @@ struct Arguments {
   std::vector<std::string> scenarios;
   std::vector<std::string> families;
   std::vector<std::string> maps;
+  std::vector<std::string> kinds, vehicles;  // of --family everyday; none given: all
   std::vector<int> robots{8};
   int seeds = 10;
   int limit = std::numeric_limits<int>::max();
   double deadline = 20.0;
   int threads = 0;
   bool alone = false;
+  int best_of = 0;
   std::string reference;
   std::string output;
 };
@@ -45,6 +50,7 @@ constexpr const char* kFooter =
 Examples
   seine bench my-tasks/ -o results.csv                              all *.yaml and *.csv in a folder
   seine bench --family random --robots 8 14 20 26 --seeds 50        generated tasks
+  seine bench --family everyday --kind parallel garage --seeds 20   what drivers do, with every vehicle
   seine bench --map office.yaml lab.yaml --robots 4 --seeds 5       teams in real buildings)";
 
 /// An instance that can be made when its turn comes.
@@ -74,11 +80,40 @@ void add_files(const std::string& path, std::vector<Instance>& instances) {
   }
 }
 
+/// Groups are kinds; an instance is named after its vehicle and seed.
+void add_everyday(const Arguments& arguments, std::vector<Instance>& instances) {
+  std::vector<world::Everyday> kinds;
+  for (const std::string& name : arguments.kinds) {
+    const std::optional<world::Everyday> kind = world::everyday_named(name);
+    if (!kind) throw InputError("bench: no everyday kind '" + name + "', see seine generate --help");
+    kinds.push_back(*kind);
+  }
+  if (kinds.empty()) kinds.assign(world::all_everyday().begin(), world::all_everyday().end());
+  std::vector<std::string> vehicles = arguments.vehicles;
+  if (vehicles.empty())
+    for (const vehicle::CatalogueEntry& entry : vehicle::catalogue()) vehicles.push_back(entry.model.name);
+  for (const world::Everyday kind : kinds) {
+    for (const std::string& name : vehicles) {
+      const vehicle::Model* model = vehicle::catalogued(name);
+      if (model == nullptr) throw InputError("bench: no vehicle '" + name + "', see seine generate --help");
+      for (int seed = 0; seed < arguments.seeds; ++seed)
+        instances.push_back({world::name_of(kind), name + " " + std::to_string(seed), [=] {
+                               return world::everyday(kind, *model, static_cast<std::uint64_t>(seed));
+                             }});
+    }
+  }
+}
+
 void add_generated(const Arguments& arguments, std::vector<Instance>& instances) {
   for (const std::string& name : arguments.families) {
+    if (name == "everyday") {
+      add_everyday(arguments, instances);
+      continue;
+    }
     const std::optional<world::Family> family = world::family_named(name);
     if (!family)
-      throw InputError("bench: no family '" + name + "', expected random, swap, corridor or parking");
+      throw InputError("bench: no family '" + name +
+                       "', expected random, swap, corridor, parking or everyday");
     for (const int robots : arguments.robots) {
       for (int seed = 0; seed < arguments.seeds; ++seed) {
         instances.push_back({name + "-" + std::to_string(robots), "seed " + std::to_string(seed), [=] {
@@ -124,6 +159,17 @@ double travel_alone(const world::Scenario& scenario, const planner::Options& opt
   return sum / static_cast<double>(scenario.robots.size());
 }
 
+/// Shortest makespan of the plans for seeds 1 … `runs`; NaN when none of them is certified.
+double best_makespan(const world::Scenario& scenario, planner::Options options, int runs) {
+  double best = Row::kNone;
+  for (int seed = 1; seed <= runs; ++seed) {
+    options.seed = static_cast<std::uint64_t>(seed);
+    const planner::PlanResult result = planner::plan(scenario, options);
+    if (result.certified) best = std::fmin(best, result.quality.makespan);
+  }
+  return best;
+}
+
 void fill(Row& row, const planner::PlanResult& result) {
   row.status = result.certified ? "certified" : "no";
   row.reason = result.reason;
@@ -139,6 +185,7 @@ void fill(Row& row, const planner::PlanResult& result) {
   row.mean_travel = result.quality.mean_travel;
   row.distance = result.quality.distance;
   row.acceleration_cost = result.quality.acceleration_cost;
+  row.gear_changes = result.quality.gear_changes;
   row.robot_clearance = result.certificate.robots.clearance;
   row.obstacle_clearance = result.certificate.obstacles.clearance;
 }
@@ -155,6 +202,8 @@ Row measure(const Instance& instance, const Arguments& arguments) {
     const planner::Options options{
         .deadline_s = arguments.deadline, .threads = arguments.threads, .progress = {}};
     fill(row, planner::plan(scenario, options));
+    if (arguments.best_of > 0 && row.status == "certified")
+      row.best_makespan = std::fmin(row.makespan, best_makespan(scenario, options, arguments.best_of));
     if (arguments.alone && row.status == "certified") row.alone = travel_alone(scenario, options);
   } catch (const InputError& error) {
     row.status = "refused";
@@ -167,9 +216,10 @@ Row measure(const Instance& instance, const Arguments& arguments) {
 int run(const Arguments& arguments) {
   const std::vector<Row> reference = read_reference(arguments.reference);
   const std::vector<Instance> instances = instances_of(arguments);
-  RowFile file(arguments.output, std::string("seine ") + SEINE_VERSION + " deadline " +
-                                     std::to_string(arguments.deadline) + " s threads " +
-                                     std::to_string(arguments.threads) + (arguments.alone ? " alone" : ""));
+  RowFile file(arguments.output,
+               std::string("seine ") + SEINE_VERSION + " deadline " + std::to_string(arguments.deadline) +
+                   " s threads " + std::to_string(arguments.threads) + (arguments.alone ? " alone" : "") +
+                   (arguments.best_of > 0 ? " best of " + std::to_string(arguments.best_of) : ""));
   ProgressLine line;
   for (std::size_t i = 0; i < instances.size(); ++i) {
     line.update(instances[i].group + " " + instances[i].name,
@@ -177,7 +227,8 @@ int run(const Arguments& arguments) {
     if (!file.has(instances[i].group, instances[i].name)) file.append(measure(instances[i], arguments));
   }
   line.clear();
-  std::cout << table(file.rows(), reference);
+  const bool everyday = arguments.families == std::vector<std::string>{"everyday"};
+  std::cout << (everyday ? everyday_table(file.rows()) : table(file.rows(), reference));
   return kDone;
 }
 
@@ -188,7 +239,9 @@ void add_bench(CLI::App& program, Invocation& invocation) {
   command.footer(kFooter);
   const auto arguments = std::make_shared<Arguments>();
   command.add_option("SCENARIOS", arguments->scenarios, "files, or folders of them");
-  command.add_option("--family", arguments->families, "random, swap, corridor, parking");
+  command.add_option("--family", arguments->families, "random, swap, corridor, parking, everyday");
+  command.add_option("--kind", arguments->kinds, "everyday: kinds (default: all)");
+  command.add_option("--vehicle", arguments->vehicles, "everyday: vehicles (default: all)");
   command.add_option("--map", arguments->maps, "maps to place teams on");
   command.add_option("--robots", arguments->robots, "team sizes for --family and --map")
       ->capture_default_str();
@@ -201,6 +254,10 @@ void add_bench(CLI::App& program, Invocation& invocation) {
       ->capture_default_str();
   add_threads(command, arguments->threads);
   command.add_flag("--alone", arguments->alone, "also plan every car alone, and compare the travel times");
+  command
+      .add_option("--best-of", arguments->best_of,
+                  "also plan with so many other seeds, and compare with the shortest plan")
+      ->check(CLI::Range(0, 1000));
   command.add_option("--reference", arguments->reference,
                      "CSV of published numbers to show beside the groups");
   command.add_option("-o,--output", arguments->output, "CSV file; what it has already is not done again");

@@ -37,6 +37,8 @@ constexpr std::array kNumbers{NumberColumn{"robots", &Row::robots},
                               NumberColumn{"mean_travel_s", &Row::mean_travel},
                               NumberColumn{"distance_m", &Row::distance},
                               NumberColumn{"acceleration_cost", &Row::acceleration_cost},
+                              NumberColumn{"gear_changes", &Row::gear_changes},
+                              NumberColumn{"best_makespan_s", &Row::best_makespan},
                               NumberColumn{"min_robot_clearance_m", &Row::robot_clearance},
                               NumberColumn{"min_obstacle_clearance_m", &Row::obstacle_clearance},
                               NumberColumn{"alone_travel_s", &Row::alone}};

@@ -21,6 +21,8 @@ struct Row {
   double compute = kNone, guess = kNone, corridor = kNone, optimise = kNone, certify = kNone;  ///< s
   double iterations = kNone, repairs = kNone;
   double makespan = kNone, mean_travel = kNone, distance = kNone, acceleration_cost = kNone;
+  double gear_changes = kNone;
+  double best_makespan = kNone;                                ///< s, shortest that is known
   double robot_clearance = kNone, obstacle_clearance = kNone;  ///< m
   double alone = kNone;  ///< s, mean travel when every car is planned alone
 };

@@ -11,13 +11,15 @@
 #include "seine/io/map_file.hpp"
 #include "seine/io/number_text.hpp"
 #include "seine/io/scenario_file.hpp"
+#include "seine/vehicle/catalogue.hpp"
+#include "seine/world/everyday.hpp"
 #include "seine/world/families.hpp"
 #include "seine/world/net_families.hpp"
 
 namespace seine::app {
 namespace {
 
-constexpr const char* kFamilies = "random, swap, corridor, parking, throw, gap or map";
+constexpr const char* kFamilies = "random, swap, corridor, parking, throw, gap, map or everyday";
 
 struct Arguments {
   std::string family;
@@ -26,6 +28,7 @@ struct Arguments {
   std::string obstacles;
   double gap = 0.0;
   std::string map;
+  std::string kind, vehicle;
   std::string output;
 };
 
@@ -38,6 +41,9 @@ constexpr const char* kFooter = R"(Families
             Hard but not impossible: net, speed and angle of the throw fit each other, time and a passage are left (docs/scenario.md)
   gap       such a team carries a load through a wall with one gap, --gap metres wide
   map       a team somewhere in a real building: --map FILE
+  everyday  what a driver does, one car or two: --kind KIND --vehicle VEHICLE
+            kinds: open, near, forward-only, slalom, parallel, garage, door, pocket, lot, rolling, moving, pair
+            vehicles: small-ackermann, rc-1-10, f1tenth, letter, hunter, golf-cart, forklift, csdo, commonroad-1, commonroad-2, autoware, truck-12m
 The same family, robots and seed give the same file on every machine.
 Examples
   seine generate random --robots 26 --seed 3 -o team.yaml
@@ -52,6 +58,8 @@ void expect_own_options(const Arguments& arguments) {
   };
   if (!arguments.map.empty() && family != "map") refuse("--map", "family map");
   if (arguments.gap != 0.0 && family != "gap") refuse("--gap", "family gap");
+  if (!arguments.kind.empty() && family != "everyday") refuse("--kind", "family everyday");
+  if (!arguments.vehicle.empty() && family != "everyday") refuse("--vehicle", "family everyday");
   if (!arguments.obstacles.empty() && family != "random" && family != "throw")
     refuse("--obstacles", "families random and throw");
 }
@@ -69,6 +77,17 @@ world::Clutteredness clutteredness(const std::string& text) {
   throw InputError("generate throw: --obstacles is '" + text + "', expected few or dense");
 }
 
+world::Scenario everyday(const Arguments& arguments) {
+  const std::string kind = arguments.kind.empty() ? "open" : arguments.kind;
+  const std::string vehicle = arguments.vehicle.empty() ? "letter" : arguments.vehicle;
+  const std::optional<world::Everyday> which = world::everyday_named(kind);
+  if (!which) throw InputError("generate everyday: no kind '" + kind + "', see generate --help");
+  const vehicle::Model* model = vehicle::catalogued(vehicle);
+  if (model == nullptr)
+    throw InputError("generate everyday: no vehicle '" + vehicle + "', see generate --help");
+  return world::everyday(*which, *model, arguments.seed);
+}
+
 world::Scenario make(const Arguments& arguments) {
   const std::string& name = arguments.family;
   const int robots = arguments.robots;
@@ -77,6 +96,7 @@ world::Scenario make(const Arguments& arguments) {
       throw InputError("generate map: needs --map FILE, a ROS map_server map or a MovingAI grid");
     return world::on_map(io::load_map(arguments.map), robots, arguments.seed);
   }
+  if (name == "everyday") return everyday(arguments);
   if (name == "throw") return world::throw_scene(robots, arguments.seed, clutteredness(arguments.obstacles));
   if (name == "gap") {
     return arguments.gap == 0.0 ? world::gap_scene(robots, arguments.seed)
@@ -117,6 +137,8 @@ void add_generate(CLI::App& program, Invocation& invocation) {
       "random: how many (default: 1 per 20 m2); throw: few (0 to 8, the default) or dense (10 to 22)");
   command.add_option("--gap", arguments->gap, "gap: its width in metres (default: 2.6)")->check(kPositive);
   command.add_option("--map", arguments->map, "the map for the family map");
+  command.add_option("--kind", arguments->kind, "everyday: which kind (default: open)");
+  command.add_option("--vehicle", arguments->vehicle, "everyday: which vehicle (default: letter)");
   command.add_option("-o,--output", arguments->output, "file to write (default: stdout)");
   command.callback([&invocation, arguments] { invocation.run = [arguments] { return run(*arguments); }; });
 }

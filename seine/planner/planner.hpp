@@ -55,6 +55,7 @@ struct Quality {
   double mean_travel = 0.0;        ///< s, mean over robots of their own arrival times
   double distance = 0.0;           ///< m, Σ_k ∫ |σ̇| dt
   double acceleration_cost = 0.0;  ///< m²/s³, Σ_k ∫ (a_t² + a_n²) dt
+  int gear_changes = 0;            ///< of all robots
 };
 
 struct PlanResult {

@@ -18,7 +18,10 @@ Quality measure(const traj::TeamTrajectory& plan) {
   quality.makespan = plan.makespan();
   for (const traj::RobotTrajectory& robot : plan.robots) {
     quality.mean_travel += robot.arrival() / static_cast<double>(plan.robots.size());
+    int gear = 0;  // 0: none yet
     for (const traj::Segment& segment : robot.segments) {
+      quality.gear_changes += gear == -segment.gear ? 1 : 0;
+      gear = segment.gear;
       const int panels = kPanels * static_cast<int>(segment.progress.size());
       const double width = segment.duration() / panels;
       for (int panel = 0; panel < panels; ++panel)
