@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
+#include <numbers>
 #include <utility>
 
 #include "seine/geom/convex.hpp"
 #include "seine/search/cost_to_go_cache.hpp"
+#include "seine/search/gates.hpp"
 #include "seine/search/hybrid_astar.hpp"
 
 namespace seine::search {
@@ -50,6 +52,7 @@ struct Rung {
   Gaps gaps = Gaps::quick;
   bool for_slots = false;
   bool from_tighter_end = false;  // the way out of a tight place is easier to find than the way in
+  bool before_gates = false;  // where it finds nothing, ways through the middle of narrow places are tried
 };
 constexpr Rung kLadder[] = {
     {},
@@ -66,7 +69,8 @@ constexpr Rung kLadder[] = {
      .gear_change = 0.5,
      .share = 0.3,
      .gaps = Gaps::exact,
-     .from_tighter_end = true},
+     .from_tighter_end = true,
+     .before_gates = true},
     // Slots that take a dozen moves of a few centimetres.
     {.radius = 1.0,
      .step = 0.2,
@@ -99,8 +103,12 @@ struct PathPlanner::Impl {
   FootprintChecker checker(const geom::Pose2& start, const geom::Pose2& goal,
                            const PathOptions& options) const;
   std::optional<Path> plan(const geom::Pose2& start, const geom::Pose2& goal, const PathOptions& options);
+  std::optional<Route> through_gates(const Route& ends, const PathOptions& options, int& left);
+  std::optional<Route> plan_ladder(const Route& ends, const FootprintChecker& free,
+                                   const PathOptions& options, int& left, bool gates);
   LatticeResult climb(const Rung& rung, const FootprintChecker& checker, const Route& ends, bool backwards,
                       const PathOptions& options, int expansions);
+  geom::Pose2 turned_about_middle(const geom::Pose2& pose, double turn) const;
 
   DiscWay way(Gaps gaps, double clearance);
   /// The grid of the heuristic where passages are in doubt, made when first needed.
@@ -187,13 +195,53 @@ LatticeResult PathPlanner::Impl::climb(const Rung& rung, const FootprintChecker&
   return result;
 }
 
-std::optional<Path> PathPlanner::Impl::plan(const geom::Pose2& start, const geom::Pose2& goal,
-                                            const PathOptions& options) {
-  FootprintChecker free = checker(start, goal, options);
+/// From gate to gate, each leg a search of its own that begins and ends in a narrow place. Through a gate the
+/// car goes nose first if it can, else backwards.
+std::optional<Route> PathPlanner::Impl::through_gates(const Route& ends, const PathOptions& options,
+                                                      int& left) {
+  const DiscWay disc = way(Gaps::wary, options.clearance);
+  std::vector<Gate> gates;
+  {
+    const CostToGoCache::Loan to_go(cache, disc, ends.goal * reference);
+    gates =
+        gates_between(map, model, *to_go.get(), disc, reference, ends.start, ends.goal, options.clearance);
+  }
+  if (gates.empty()) return std::nullopt;
+  for (const double turn : {0.0, std::numbers::pi}) {
+    Route whole{ends.start, ends.goal, {}};
+    geom::Pose2 from = ends.start;
+    bool found = true;
+    for (std::size_t i = 0; i <= gates.size() && found; ++i) {
+      geom::Pose2 to = ends.goal;
+      if (i < gates.size()) to = turned_about_middle(gates[i].pose, turn);
+      const Route leg{from, to, {}};
+      const std::optional<Route> route = plan_ladder(leg, checker(from, to, options), options, left, false);
+      found = route.has_value();
+      if (found) whole.arcs.insert(whole.arcs.end(), route->arcs.begin(), route->arcs.end());
+      from = to;
+    }
+    if (!found) continue;
+    merge(whole.arcs);
+    return whole;
+  }
+  return std::nullopt;
+}
+
+/// The same place, facing the other way by `turn`: the footprint's middle stays.
+geom::Pose2 PathPlanner::Impl::turned_about_middle(const geom::Pose2& pose, double turn) const {
+  const geom::Box box = geom::bounding_box(model.footprint);
+  const geom::Vec2 middle = 0.5 * (box.low + box.high), at = pose * middle;
+  const double heading = geom::wrap_angle(pose.heading + turn);
+  const geom::Vec2 axle = at - geom::Pose2{0.0, 0.0, heading} * middle;
+  return {axle.x, axle.y, heading};
+}
+
+/// Climbs the ladder until a rung finds a way; `left` expansions may be used and are counted down.
+std::optional<Route> PathPlanner::Impl::plan_ladder(const Route& ends, const FootprintChecker& free,
+                                                    const PathOptions& options, int& left, bool gates) {
+  const geom::Pose2 &start = ends.start, &goal = ends.goal;
   const double room_start = free.exact_room(start), room_goal = free.exact_room(goal);
   if (std::min(room_start, room_goal) < -kTouch) return std::nullopt;
-
-  int left = options.max_expansions;
   // Whether there may be an end that can only be left or reached by moves shorter than a step.
   bool slot = std::min(room_start, room_goal) < kTightSlot * length;
   for (const Rung& rung : kLadder) {
@@ -208,17 +256,25 @@ std::optional<Path> PathPlanner::Impl::plan(const geom::Pose2& start, const geom
     const bool backwards = rung.from_tighter_end && room_goal < room_start;
     const int expansions =
         std::min(left, std::max(150, static_cast<int>(rung.share * options.max_expansions)));
-    LatticeResult result = climb(rung, checker, backwards ? Route{goal, start, {}} : Route{start, goal, {}},
-                                 backwards, options, expansions);
+    LatticeResult result =
+        climb(rung, checker, backwards ? Route{goal, start, {}} : ends, backwards, options, expansions);
     if (result.unreachable) return std::nullopt;
-    if (result.route) {
-      const Route route = backwards ? reversed(*result.route) : *std::move(result.route);
-      return sampled(route, kPathSpacing * length);
-    }
+    if (result.route) return backwards ? reversed(*result.route) : std::move(result.route);
     left -= result.expansions;
     slot = slot || result.exhausted;
+    if (gates && rung.before_gates)
+      if (std::optional<Route> route = through_gates(ends, options, left)) return route;
   }
   return std::nullopt;
+}
+
+std::optional<Path> PathPlanner::Impl::plan(const geom::Pose2& start, const geom::Pose2& goal,
+                                            const PathOptions& options) {
+  int left = options.max_expansions;
+  const std::optional<Route> route =
+      plan_ladder({start, goal, {}}, checker(start, goal, options), options, left, true);
+  if (!route) return std::nullopt;
+  return sampled(*route, kPathSpacing * length);
 }
 
 PathPlanner::PathPlanner(const world::StaticMap& map, const vehicle::Model& model)
