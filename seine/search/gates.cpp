@@ -141,6 +141,7 @@ std::vector<Gate> gates_between(const world::StaticMap& map, const vehicle::Mode
     const geom::Vec2 along = cells[ahead] - cells[behind];
     const geom::Pose2 pose = middle.fit(cells[at], std::atan2(along.y, along.x));
     const double room = middle.room(pose, clearance);
+    if (room > kNarrow * model.width()) continue;  // the way only kept close to one side
     if (room < 0.0 || gates.size() == kMost) return {};
     gates.push_back({pose, room});
   }

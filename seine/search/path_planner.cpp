@@ -52,12 +52,14 @@ struct Rung {
   Gaps gaps = Gaps::quick;
   bool for_slots = false;
   bool from_tighter_end = false;  // the way out of a tight place is easier to find than the way in
-  bool before_gates = false;  // where it finds nothing, ways through the middle of narrow places are tried
+  // Where this rung finds nothing, ways through the middle of narrow places are tried that leave at most so
+  // much room, car lengths.
+  double gates_after = 0.0;
 };
 constexpr Rung kLadder[] = {
     {},
     // Buildings where the shortest way turns out to be too narrow.
-    {.share = 0.03, .gaps = Gaps::wary},
+    {.share = 0.03, .gaps = Gaps::wary, .gates_after = 0.2 * kSlack},
     // Parking, narrow doors.
     {.radius = 1.02,
      .step = 0.4,
@@ -70,7 +72,7 @@ constexpr Rung kLadder[] = {
      .share = 0.3,
      .gaps = Gaps::exact,
      .from_tighter_end = true,
-     .before_gates = true},
+     .gates_after = 1.0},
     // Slots that take a dozen moves of a few centimetres.
     {.radius = 1.0,
      .step = 0.2,
@@ -103,7 +105,8 @@ struct PathPlanner::Impl {
   FootprintChecker checker(const geom::Pose2& start, const geom::Pose2& goal,
                            const PathOptions& options) const;
   std::optional<Path> plan(const geom::Pose2& start, const geom::Pose2& goal, const PathOptions& options);
-  std::optional<Route> through_gates(const Route& ends, const PathOptions& options, int& left);
+  std::optional<Route> through_gates(const Route& ends, double most_room, const PathOptions& options,
+                                     int& left);
   std::optional<Route> plan_ladder(const Route& ends, const FootprintChecker& free,
                                    const PathOptions& options, int& left, bool gates);
   LatticeResult climb(const Rung& rung, const FootprintChecker& checker, const Route& ends, bool backwards,
@@ -197,8 +200,8 @@ LatticeResult PathPlanner::Impl::climb(const Rung& rung, const FootprintChecker&
 
 /// From gate to gate, each leg a search of its own that begins and ends in a narrow place. Through a gate the
 /// car goes nose first if it can, else backwards.
-std::optional<Route> PathPlanner::Impl::through_gates(const Route& ends, const PathOptions& options,
-                                                      int& left) {
+std::optional<Route> PathPlanner::Impl::through_gates(const Route& ends, double most_room,
+                                                      const PathOptions& options, int& left) {
   const DiscWay disc = way(Gaps::wary, options.clearance);
   std::vector<Gate> gates;
   {
@@ -206,7 +209,9 @@ std::optional<Route> PathPlanner::Impl::through_gates(const Route& ends, const P
     gates =
         gates_between(map, model, *to_go.get(), disc, reference, ends.start, ends.goal, options.clearance);
   }
-  if (gates.empty()) return std::nullopt;
+  const bool narrow =
+      std::any_of(gates.begin(), gates.end(), [&](const Gate& gate) { return gate.room <= most_room; });
+  if (!narrow) return std::nullopt;
   for (const double turn : {0.0, std::numbers::pi}) {
     Route whole{ends.start, ends.goal, {}};
     geom::Pose2 from = ends.start;
@@ -262,8 +267,9 @@ std::optional<Route> PathPlanner::Impl::plan_ladder(const Route& ends, const Foo
     if (result.route) return backwards ? reversed(*result.route) : std::move(result.route);
     left -= result.expansions;
     slot = slot || result.exhausted;
-    if (gates && rung.before_gates)
-      if (std::optional<Route> route = through_gates(ends, options, left)) return route;
+    if (gates && rung.gates_after > 0.0)
+      if (std::optional<Route> route = through_gates(ends, rung.gates_after * length, options, left))
+        return route;
   }
   return std::nullopt;
 }
