@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <mutex>
 #include <numbers>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "seine/search/cost_to_go_cache.hpp"
 #include "seine/search/gates.hpp"
 #include "seine/search/hybrid_astar.hpp"
+#include "seine/search/quickest.hpp"
 
 namespace seine::search {
 namespace {
@@ -26,8 +28,14 @@ constexpr double kFineCell = 0.12;        // the same where it is in doubt wheth
 constexpr double kTightSlot = 0.1;        // car lengths of room: an end with more is no slot
 constexpr double kComfort = 0.3;          // car widths on either side that a wary way likes to have
 constexpr int kDiscomfort = 10;           // times the cost where it has not
-constexpr double kReverse = 1.5;          // what a metre backwards costs
+constexpr double kReverse = 1.5;          // what a metre backwards costs at least
 constexpr double kSteeringChange = 0.05;  // turning radii, from straight to the tightest turn
+
+/// What a metre backwards costs: the time it takes, forwards being 1; infinite where the car has no reverse.
+double reverse_cost(const vehicle::Limits& limits) {
+  if (!(limits.reverse_speed > 0.0)) return std::numeric_limits<double>::infinity();
+  return std::max(kReverse, limits.speed / limits.reverse_speed);
+}
 
 /// What the heuristic of a rung says about gaps.
 enum class Gaps {
@@ -91,6 +99,12 @@ constexpr Rung kLadder[] = {
     {.share = 1.0, .gaps = Gaps::wary},
 };
 
+/// Rungs on open ground for other tastes: few gear changes, wide turns.
+constexpr Rung kHurried[] = {
+    {.gear_change = 8.0},
+    {.radius = 2.0, .step = 0.6, .min_step = 0.6, .cell = 0.3, .gear_change = 2.0},
+};
+
 }  // namespace
 
 struct PathPlanner::Impl {
@@ -104,11 +118,18 @@ struct PathPlanner::Impl {
 
   FootprintChecker checker(const geom::Pose2& start, const geom::Pose2& goal,
                            const PathOptions& options) const;
-  std::optional<Path> plan(const geom::Pose2& start, const geom::Pose2& goal, const PathOptions& options);
-  std::optional<Route> through_gates(const Route& ends, double most_room, const PathOptions& options,
+  /// The ends of a way, and the room there.
+  struct Ends {
+    geom::Pose2 start, goal;
+    double room_start, room_goal;
+  };
+  std::optional<Route> plan(const geom::Pose2& start, const geom::Pose2& goal, const PathOptions& options);
+  std::optional<Route> through_gates(const Ends& ends, double most_room, const PathOptions& options,
                                      int& left);
-  std::optional<Route> plan_ladder(const Route& ends, const FootprintChecker& free,
-                                   const PathOptions& options, int& left, bool gates);
+  std::optional<Route> ladder(const geom::Pose2& start, const geom::Pose2& goal, const PathOptions& options,
+                              int& left, bool gates);
+  FootprintChecker slackened(const FootprintChecker& free, const Ends& ends, double share) const;
+  void hurry(Route& route, const FootprintChecker& checker, const PathOptions& options);
   LatticeResult climb(const Rung& rung, const FootprintChecker& checker, const Route& ends, bool backwards,
                       const PathOptions& options, int expansions);
   geom::Pose2 turned_about_middle(const geom::Pose2& pose, double turn) const;
@@ -177,8 +198,9 @@ LatticeResult PathPlanner::Impl::climb(const Rung& rung, const FootprintChecker&
   problem.reference = reference;
   problem.deadline = options.deadline;
   problem.costs.radius = radius;
-  problem.costs.driving.forward = backwards ? kReverse : 1.0;
-  problem.costs.driving.reverse = backwards ? 1.0 : kReverse;
+  const double reverse = reverse_cost(model.limits);
+  problem.costs.driving.forward = backwards ? reverse : 1.0;
+  problem.costs.driving.reverse = backwards ? 1.0 : reverse;
   problem.costs.driving.gear_change = rung.gear_change * radius;
   problem.costs.steering_change = kSteeringChange;
   problem.costs.short_stretch = kShortStretch * length;
@@ -189,8 +211,9 @@ LatticeResult PathPlanner::Impl::climb(const Rung& rung, const FootprintChecker&
   settings.cell = rung.cell * radius;
   settings.gears_apart = rung.gears_apart;
   settings.headings = rung.headings;
-  settings.forward = backwards ? rung.backward : rung.forward;
-  settings.backward = backwards ? rung.forward : rung.backward;
+  const int backward = std::isfinite(reverse) ? rung.backward : 0;
+  settings.forward = backwards ? backward : rung.forward;
+  settings.backward = backwards ? rung.forward : backward;
   settings.heuristic_weight = options.heuristic_weight;
   settings.max_expansions = expansions;
   LatticeResult result = search_lattice(problem, settings);
@@ -198,9 +221,32 @@ LatticeResult PathPlanner::Impl::climb(const Rung& rung, const FootprintChecker&
   return result;
 }
 
+/// The checker with a share of the full slack, less of it about tight ends.
+FootprintChecker PathPlanner::Impl::slackened(const FootprintChecker& free, const Ends& ends,
+                                              double share) const {
+  FootprintChecker checker = free;
+  const double slack = share * kSlack * length;
+  checker.set_slack(slack);
+  checker.ease_slack(ends.start.position(), kEaseRadius * length, std::min(slack, 0.5 * ends.room_start));
+  checker.ease_slack(ends.goal.position(), kEaseRadius * length, std::min(slack, 0.5 * ends.room_goal));
+  return checker;
+}
+
+/// Looks for ways that take less time than the one found: other words, and searches to which other turns and
+/// gear changes are dear.
+void PathPlanner::Impl::hurry(Route& route, const FootprintChecker& checker, const PathOptions& options) {
+  take_quickest_word(route, checker, kLadder[0].radius / model.max_curvature());
+  if (route.arcs.size() <= 5) return;
+  for (const Rung& rung : kHurried) {
+    const LatticeResult result = climb(rung, checker, Route{route.start, route.goal, {}}, false, options,
+                                       std::max(150, static_cast<int>(rung.share * options.max_expansions)));
+    if (result.route && quicker(*result.route, route, model)) route = *result.route;
+  }
+}
+
 /// From gate to gate, each leg a search of its own that begins and ends in a narrow place. Through a gate the
 /// car goes nose first if it can, else backwards.
-std::optional<Route> PathPlanner::Impl::through_gates(const Route& ends, double most_room,
+std::optional<Route> PathPlanner::Impl::through_gates(const Ends& ends, double most_room,
                                                       const PathOptions& options, int& left) {
   const DiscWay disc = way(Gaps::wary, options.clearance);
   std::vector<Gate> gates;
@@ -219,8 +265,7 @@ std::optional<Route> PathPlanner::Impl::through_gates(const Route& ends, double 
     for (std::size_t i = 0; i <= gates.size() && found; ++i) {
       geom::Pose2 to = ends.goal;
       if (i < gates.size()) to = turned_about_middle(gates[i].pose, turn);
-      const Route leg{from, to, {}};
-      const std::optional<Route> route = plan_ladder(leg, checker(from, to, options), options, left, false);
+      const std::optional<Route> route = ladder(from, to, options, left, false);
       found = route.has_value();
       if (found) whole.arcs.insert(whole.arcs.end(), route->arcs.begin(), route->arcs.end());
       from = to;
@@ -242,29 +287,30 @@ geom::Pose2 PathPlanner::Impl::turned_about_middle(const geom::Pose2& pose, doub
 }
 
 /// Climbs the ladder until a rung finds a way; `left` expansions may be used and are counted down.
-std::optional<Route> PathPlanner::Impl::plan_ladder(const Route& ends, const FootprintChecker& free,
-                                                    const PathOptions& options, int& left, bool gates) {
-  const geom::Pose2 &start = ends.start, &goal = ends.goal;
-  const double room_start = free.exact_room(start), room_goal = free.exact_room(goal);
-  if (std::min(room_start, room_goal) < -kTouch) return std::nullopt;
+std::optional<Route> PathPlanner::Impl::ladder(const geom::Pose2& start, const geom::Pose2& goal,
+                                               const PathOptions& options, int& left, bool gates) {
+  const FootprintChecker free = checker(start, goal, options);
+  const Ends ends{start, goal, free.exact_room(start), free.exact_room(goal)};
+  if (std::min(ends.room_start, ends.room_goal) < -kTouch) return std::nullopt;
+
   // Whether there may be an end that can only be left or reached by moves shorter than a step.
-  bool slot = std::min(room_start, room_goal) < kTightSlot * length;
+  bool slot = std::min(ends.room_start, ends.room_goal) < kTightSlot * length;
   for (const Rung& rung : kLadder) {
     if (left <= 0 || options.deadline.expired()) break;
     if (rung.for_slots && !slot) continue;
-    FootprintChecker checker = free;
-    const double slack = rung.slack * kSlack * length;
-    checker.set_slack(slack);
-    checker.ease_slack(start.position(), kEaseRadius * length, std::min(slack, 0.5 * room_start));
-    checker.ease_slack(goal.position(), kEaseRadius * length, std::min(slack, 0.5 * room_goal));
+    const FootprintChecker checker = slackened(free, ends, rung.slack);
     // The way out of a tight place is easier to find than the way in: search from there.
-    const bool backwards = rung.from_tighter_end && room_goal < room_start;
+    const bool backwards = rung.from_tighter_end && ends.room_goal < ends.room_start;
     const int expansions =
         std::min(left, std::max(150, static_cast<int>(rung.share * options.max_expansions)));
-    LatticeResult result =
-        climb(rung, checker, backwards ? Route{goal, start, {}} : ends, backwards, options, expansions);
+    LatticeResult result = climb(rung, checker, backwards ? Route{goal, start, {}} : Route{start, goal, {}},
+                                 backwards, options, expansions);
     if (result.unreachable) return std::nullopt;
-    if (result.route) return backwards ? reversed(*result.route) : std::move(result.route);
+    if (result.route) {
+      Route route = backwards ? reversed(*result.route) : *std::move(result.route);
+      if (options.quickest) hurry(route, slackened(free, ends, 1.0), options);
+      return route;
+    }
     left -= result.expansions;
     slot = slot || result.exhausted;
     if (gates && rung.gates_after > 0.0)
@@ -274,13 +320,10 @@ std::optional<Route> PathPlanner::Impl::plan_ladder(const Route& ends, const Foo
   return std::nullopt;
 }
 
-std::optional<Path> PathPlanner::Impl::plan(const geom::Pose2& start, const geom::Pose2& goal,
-                                            const PathOptions& options) {
+std::optional<Route> PathPlanner::Impl::plan(const geom::Pose2& start, const geom::Pose2& goal,
+                                             const PathOptions& options) {
   int left = options.max_expansions;
-  const std::optional<Route> route =
-      plan_ladder({start, goal, {}}, checker(start, goal, options), options, left, true);
-  if (!route) return std::nullopt;
-  return sampled(*route, kPathSpacing * length);
+  return ladder(start, goal, options, left, true);
 }
 
 PathPlanner::PathPlanner(const world::StaticMap& map, const vehicle::Model& model)
@@ -290,7 +333,9 @@ PathPlanner::PathPlanner(PathPlanner&&) noexcept = default;
 
 std::optional<Path> PathPlanner::plan(const geom::Pose2& start, const geom::Pose2& goal,
                                       const PathOptions& options) const {
-  return impl_->plan(start, goal, options);
+  const std::optional<Route> route = impl_->plan(start, goal, options);
+  if (!route) return std::nullopt;
+  return sampled(*route, kPathSpacing * impl_->length);
 }
 
 }  // namespace seine::search

@@ -35,11 +35,14 @@ struct PathOptions {
   /// than `parked_clearance` (m) to the own start or goal do not count.
   std::span<const std::vector<geom::Vec2>> parked;
   double parked_clearance = 0.05;
+  /// Whether several ways are compared by the time they take (a millisecond or so); else the first is good
+  /// enough.
+  bool quickest = false;
   Deadline deadline;
 };
 
-/// Paths for one kind of car on one map: Hybrid A* with Reeds-Shepp shots, whole footprint, forward and
-/// reverse. Heuristics are cached per goal region. `plan` may be called from many threads at once.
+/// Paths for one kind of car on one map: Hybrid A* with Reeds-Shepp shots, whole footprint, forward and, where
+/// the car's reverse speed is not 0, reverse. Heuristics are cached per goal region. `plan` may be called from many threads at once.
 class PathPlanner {
  public:
   PathPlanner(const world::StaticMap& map, const vehicle::Model& model);

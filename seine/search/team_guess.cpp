@@ -76,6 +76,7 @@ std::optional<Path> Guess::find_path(int robot, std::span<const Bump> bumps,
                             .bumps = bumps,
                             .parked = parked,
                             .parked_clearance = scenario_.margins.robot + options_.extra_robot_clearance,
+                            .quickest = scenario_.robots.size() == 1 && bumps.empty(),
                             .deadline = options_.deadline};
   return find_path_from(who, who.start, options);
 }

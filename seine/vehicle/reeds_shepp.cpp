@@ -13,6 +13,8 @@ constexpr double kHalfPi = 0.5 * kPi;
 // A length that should be ≥ 0 may come out this much below it by rounding (radii); it is then taken as it is.
 constexpr double kRounding = 1e-9;
 constexpr int kMaxBest = 8;
+// From this ratio of the two gears' costs on, words of three turns in one gear can be among the cheapest.
+constexpr double kOneGear = 2.0;
 
 /// (−π, π], for |angle| < 5π: two compares are several times faster than std::remainder.
 double wrap(double angle) {
@@ -116,6 +118,7 @@ void Best::offer(const Symmetry& symmetry, const std::array<Turn, N>& turns, std
     for (double& length : lengths) length = -length;
   }
   const double cost = cost_of(lengths);
+  if (!std::isfinite(cost)) return;
   if (count_ == room_ && cost >= words_[static_cast<std::size_t>(count_ - 1)].cost) return;
   int at = count_ < room_ ? count_++ : count_ - 1;
   for (; at > 0 && words_[static_cast<std::size_t>(at - 1)].cost > cost; --at) {
@@ -177,6 +180,18 @@ void three_turns(const Target& g, const Symmetry& symmetry, Best& best) {
   const double t = wrap(atan2_of(y, x) + 0.5 * u + kPi);
   if (t < -kRounding) return;
   best.offer<3>(symmetry, {kLeft, kRight, kLeft}, {t, u, wrap(g.heading - t + u)});
+}
+
+/// CCC in one gear [Dubins57]: the circles of C|C|C, the middle one driven the long way round. Worth a look
+/// only where the other gear is dear.
+void three_turns_in_one_gear(const Target& g, const Symmetry& symmetry, Best& best) {
+  const double x = g.x - g.sine, y = g.y - 1.0 + g.cosine;
+  const double square = x * x + y * y;
+  if (square > 16.0) return;
+  const double back = 2.0 * std::asin(0.25 * std::sqrt(square)), u = 2.0 * kPi - back;
+  if (best.hopeless(u, 0)) return;
+  const double t = wrap(atan2_of(y, x) - 0.5 * back + kPi);
+  best.offer<3>(symmetry, {kLeft, kRight, kLeft}, {full_turn(t), u, full_turn(wrap(g.heading - t - back))});
 }
 
 /// The outer turns of the four-turn words when the inner ones are u and v [Reeds90, 8.7 and 8.8].
@@ -271,6 +286,15 @@ int reeds_shepp(const geom::Pose2& from, const geom::Pose2& to, double radius, c
   // look then.
   for (const int time : {1, -1}) {
     for (const int mirror : {1, -1}) straight_between(seen(time, mirror), {time, mirror, false}, words);
+  }
+  const double dearest = std::max(costs.forward, costs.reverse),
+               cheapest = std::min(costs.forward, costs.reverse);
+  if (dearest > kOneGear * cheapest) {
+    for (const int time : {1, -1}) {
+      for (const int mirror : {1, -1})
+        three_turns_in_one_gear(seen(time, mirror), {time, mirror, false}, words);
+    }
+    if (!std::isfinite(dearest)) return words.copy_to(best);
   }
   for (const int time : {1, -1}) {
     for (const int mirror : {1, -1}) {
