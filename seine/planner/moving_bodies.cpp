@@ -30,7 +30,7 @@ std::vector<trajopt::Body> moving_obstacles(const world::Scenario& scenario, con
                                             double slack, double tick, int ticks) {
   std::vector<trajopt::Body> bodies;
   for (const world::Obstacle& obstacle : scenario.obstacles) {
-    if (obstacle.motion.empty()) continue;
+    if (world::stands_still(obstacle)) continue;
     std::vector<geom::Convex> parts;
     if (const auto* circle = std::get_if<world::Circle>(&obstacle.shape))
       parts.push_back({{circle->center}, circle->radius});

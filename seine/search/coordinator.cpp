@@ -141,7 +141,7 @@ std::span<const Mark> Coordinator::taken(int robot, const Way& way, int other, c
 }
 
 VelocityPlan Coordinator::plan_on(int robot, const Way& way, const TeamState& state,
-                                  CoordinatorWorkspace& workspace, double latest) const {
+                                  CoordinatorWorkspace& workspace, double latest, double delay) const {
   constexpr std::size_t kMostMarks = 50000;
   if (workspace.marks.size() > kMostMarks) workspace.marks.clear();
   const std::size_t clock = car(robot).kind->clock;
@@ -158,7 +158,16 @@ VelocityPlan Coordinator::plan_on(int robot, const Way& way, const TeamState& st
     for (const Mark& mark : marks)
       ticks = std::max(ticks, mark.end == MovingBody::kForever ? mark.begin + 1 : mark.end + 1);
   }
+  const Mark waits{0, static_cast<int>(delay / way.lattice.grid().half_step()), 1, way.lattice.units()};
+  if (waits.end > 0) {
+    workspace.taken.push_back({&waits, 1});
+    hindered = true;
+    ticks = std::max(ticks, waits.end + 1);
+  }
   if (!hindered) return way.unhindered;
+  // Whatever comes later than this stays for good, as far as this car is concerned.
+  constexpr int kMostTicks = 1 << 15;
+  ticks = std::min(ticks, kMostTicks);
   Occupied& occupied = workspace.velocity.occupied;
   occupied.reset(way.lattice, ticks);
   for (const std::span<const Mark> marks : workspace.taken) occupied.add(marks);
@@ -187,6 +196,23 @@ std::shared_ptr<const Placement> Coordinator::place_on(int robot, const WayPtr& 
                                                        CoordinatorWorkspace& workspace, double latest) const {
   if (way->alone > latest) return nullptr;
   return placement(robot, way, plan_on(robot, *way, state, workspace, latest));
+}
+
+std::shared_ptr<const Placement> Coordinator::place_after(double delay, int robot, const WayPtr& way,
+                                                          const TeamState& state,
+                                                          CoordinatorWorkspace& workspace) const {
+  constexpr double kWhenever = std::numeric_limits<double>::infinity();
+  return placement(robot, way, plan_on(robot, *way, state, workspace, kWhenever, delay));
+}
+
+std::vector<Traffic> Coordinator::traffic(int robot, const TeamState& state) const {
+  const std::size_t clock = car(robot).kind->clock;
+  std::vector<Traffic> traffic;
+  for (const MovingBody& part : obstacles_[clock]) traffic.push_back({&part, scenario_.margins.obstacle});
+  for (int other = 0; other < robots(); ++other)
+    if (other != robot && state[idx(other)])
+      traffic.push_back({&state[idx(other)]->bodies[clock], clearance(robot, other)});
+  return traffic;
 }
 
 std::shared_ptr<const Placement> Coordinator::place(int robot, const TeamState& state,

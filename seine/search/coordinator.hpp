@@ -89,6 +89,13 @@ class Coordinator {
                                             CoordinatorWorkspace& workspace,
                                             double latest = std::numeric_limits<double>::infinity()) const;
 
+  /// The same, not leaving the start before `delay` (s).
+  std::shared_ptr<const Placement> place_after(double delay, int robot, const WayPtr& way,
+                                               const TeamState& state, CoordinatorWorkspace& workspace) const;
+  /// What moves around the robot: the moving obstacles and the others of `state`, on its own clock.
+  std::vector<Traffic> traffic(int robot, const TeamState& state) const;
+  const SpeedGrid& grid(int robot) const { return car(robot).kind->grid; }
+
   /// Robots that are in the way of the unhindered drive along `way`, in the order of the first conflict, and
   /// where that is.
   struct Conflict {
@@ -128,7 +135,7 @@ class Coordinator {
   std::span<const Mark> taken(int robot, const Way& way, int other, const TeamState& state,
                               CoordinatorWorkspace& workspace) const;
   VelocityPlan plan_on(int robot, const Way& way, const TeamState& state, CoordinatorWorkspace& workspace,
-                       double latest) const;
+                       double latest, double delay = 0.0) const;
   std::shared_ptr<const Placement> placement(int robot, const WayPtr& way, VelocityPlan plan) const;
 
   const world::Scenario& scenario_;

@@ -51,6 +51,27 @@ void StretchTime::add(std::span<const Arc> arcs, std::vector<double>& times) {
   }
 }
 
+// An arc between straights is drawn out over so much of them at most (car lengths, and share).
+constexpr double kDrawnOut = 1.0, kOfStraight = 0.5;
+
+/// The arcs with the curvatures that a smooth curve in their place would have: a short bend between straights
+/// is drawn out over parts of them.
+std::vector<Arc> rounded(std::span<const Arc> arcs, double length) {
+  std::vector<Arc> smooth(arcs.begin(), arcs.end());
+  const auto straight = [&](std::size_t i, int gear) {
+    const bool there = i < arcs.size() && arcs[i].curvature == 0.0 && arcs[i].gear() == gear;
+    return there ? std::min(kOfStraight * std::abs(arcs[i].distance), kDrawnOut * length) : 0.0;
+  };
+  for (std::size_t i = 0; i < arcs.size(); ++i) {
+    if (arcs[i].curvature == 0.0) continue;
+    const int gear = arcs[i].gear();
+    const double own = std::abs(arcs[i].distance);
+    const double more = (i > 0 ? straight(i - 1, gear) : 0.0) + straight(i + 1, gear);
+    smooth[i].curvature *= own / (own + more);
+  }
+  return smooth;
+}
+
 /// The steering angle an arc has to reach that is driven in so many seconds: a short bend may be drawn out
 /// with less, turning the wheel in and out again all the time.
 double steering_needed(const Arc& arc, double time, const vehicle::Model& model) {
@@ -76,16 +97,17 @@ double steering_time(std::span<const Arc> arcs, std::span<const double> times, c
 
 double drive_time(std::span<const Arc> arcs, const vehicle::Model& model) {
   StretchTime stretch(model.limits);
+  const std::vector<Arc> smooth = rounded(arcs, model.length());
   std::vector<double> times;
   times.reserve(arcs.size());
   for (std::size_t from = 0, i = 1; i <= arcs.size(); ++i) {
     if (i < arcs.size() && arcs[i].gear() == arcs[from].gear()) continue;
-    stretch.add(arcs.subspan(from, i - from), times);
+    stretch.add(std::span(smooth).subspan(from, i - from), times);
     from = i;
   }
   const double driven = std::accumulate(times.begin(), times.end(), 0.0);
   if (!std::isfinite(model.limits.steering_rate) || !std::isfinite(driven)) return driven;
-  return driven + steering_time(arcs, times, model);
+  return driven + steering_time(smooth, times, model);
 }
 
 }  // namespace seine::search

@@ -31,10 +31,11 @@ constexpr int kDiscomfort = 10;           // times the cost where it has not
 constexpr double kReverse = 1.5;          // what a metre backwards costs at least
 constexpr double kSteeringChange = 0.05;  // turning radii, from straight to the tightest turn
 
-/// What a metre backwards costs: the time it takes, forwards being 1; infinite where the car has no reverse.
-double reverse_cost(const vehicle::Limits& limits) {
+/// What a metre backwards costs: at least the usual, at most the time it takes, forwards being 1; infinite
+/// where the car has no reverse.
+double reverse_cost(const vehicle::Limits& limits, double share) {
   if (!(limits.reverse_speed > 0.0)) return std::numeric_limits<double>::infinity();
-  return std::max(kReverse, limits.speed / limits.reverse_speed);
+  return kReverse + share * std::max(0.0, limits.speed / limits.reverse_speed - kReverse);
 }
 
 /// What the heuristic of a rung says about gaps.
@@ -54,9 +55,10 @@ struct Rung {
   int headings = 24;
   bool gears_apart = false;
   int forward = 5, backward = 3;
-  double slack = 1.0;        // of the full slack
-  double gear_change = 2.0;  // turning radii
-  double share = 0.02;       // of the expansions allowed
+  double slack = 1.0;         // of the full slack
+  double gear_change = 2.0;   // turning radii
+  double slow_reverse = 0.0;  // of what a slow reverse gear costs more in time than usual
+  double share = 0.02;        // of the expansions allowed
   Gaps gaps = Gaps::quick;
   bool for_slots = false;
   bool from_tighter_end = false;  // the way out of a tight place is easier to find than the way in
@@ -99,8 +101,9 @@ constexpr Rung kLadder[] = {
     {.share = 1.0, .gaps = Gaps::wary},
 };
 
-/// Rungs on open ground for other tastes: few gear changes, wide turns.
+/// Rungs on open ground for other tastes: little in a slow reverse gear, few gear changes, wide turns.
 constexpr Rung kHurried[] = {
+    {.slow_reverse = 1.0},
     {.gear_change = 8.0},
     {.radius = 2.0, .step = 0.6, .min_step = 0.6, .cell = 0.3, .gear_change = 2.0},
 };
@@ -198,7 +201,7 @@ LatticeResult PathPlanner::Impl::climb(const Rung& rung, const FootprintChecker&
   problem.reference = reference;
   problem.deadline = options.deadline;
   problem.costs.radius = radius;
-  const double reverse = reverse_cost(model.limits);
+  const double reverse = reverse_cost(model.limits, rung.slow_reverse);
   problem.costs.driving.forward = backwards ? reverse : 1.0;
   problem.costs.driving.reverse = backwards ? 1.0 : reverse;
   problem.costs.driving.gear_change = rung.gear_change * radius;
@@ -236,8 +239,10 @@ FootprintChecker PathPlanner::Impl::slackened(const FootprintChecker& free, cons
 /// gear changes are dear.
 void PathPlanner::Impl::hurry(Route& route, const FootprintChecker& checker, const PathOptions& options) {
   take_quickest_word(route, checker, kLadder[0].radius / model.max_curvature());
-  if (route.arcs.size() <= 5) return;
+  const bool slow_reverse = model.limits.speed > kReverse * model.limits.reverse_speed;
+  if (route.arcs.size() <= 5 && !slow_reverse) return;
   for (const Rung& rung : kHurried) {
+    if (rung.slow_reverse > 0.0 && !slow_reverse) continue;
     const LatticeResult result = climb(rung, checker, Route{route.start, route.goal, {}}, false, options,
                                        std::max(150, static_cast<int>(rung.share * options.max_expansions)));
     if (result.route && quicker(*result.route, route, model)) route = *result.route;

@@ -19,8 +19,20 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kWorthwhile = 0.01;
 // What it adds to the time of a way, in the time a car needs to drive its own length √(length /
 // acceleration).
-constexpr double kGearChange = 0.1, kShortStretch = 3.0;
-constexpr double kShort = 0.3;  // car lengths
+constexpr double kGearChange = 0.1, kShortStretch = 1.0;
+constexpr double kShort = 0.3;      // car lengths
+constexpr double kTooShort = 0.15;  // the same: a word with such a stretch is left to the search
+
+double shortest_stretch(std::span<const Arc> arcs) {
+  double shortest = std::numeric_limits<double>::infinity(), stretch = 0.0;
+  for (std::size_t i = 0; i < arcs.size(); ++i) {
+    stretch += std::abs(arcs[i].distance);
+    if (i + 1 < arcs.size() && arcs[i + 1].gear() == arcs[i].gear()) continue;
+    shortest = std::min(shortest, stretch);
+    stretch = 0.0;
+  }
+  return shortest;
+}
 
 /// s, to compare ways by: a gear change has to be earned, and a stretch in one gear of less than a third of a
 /// car leaves the optimiser no room.
@@ -55,6 +67,7 @@ void take_quickest_word(Route& route, const FootprintChecker& checker, double ra
     std::array<vehicle::ReedsSheppPath, kWords> words;
     const int found = vehicle::reeds_shepp(route.start, route.goal, turn, costs, words);
     for (std::size_t k = 0; k < static_cast<std::size_t>(found); ++k) {
+      if (shortest_stretch(words[k].arcs()) < kTooShort * model.length()) continue;
       const double time = trouble(words[k].arcs(), model);
       if (!(time < best) || sweep(checker, route.start, room, words[k].arcs()) < 0.0) continue;
       best = time;

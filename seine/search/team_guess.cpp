@@ -13,6 +13,7 @@
 #include "seine/search/precedence.hpp"
 #include "seine/search/roundabout.hpp"
 #include "seine/search/side_step.hpp"
+#include "seine/search/space_time_planner.hpp"
 #include "seine/search/team_search.hpp"
 
 namespace seine::search {
@@ -40,6 +41,7 @@ class Guess {
                                 std::span<const std::vector<geom::Vec2>> parked, int expansions) const;
   std::optional<Path> find_path_from(const world::Robot& who, const geom::Pose2& start,
                                      const PathOptions& options) const;
+  std::optional<Path> find_path_among(int robot, std::span<const Traffic> traffic, double pace) const;
   TeamSearch::Sources sources() const;
   Attempt new_attempt() const;
   bool find_first_ways(Attempt& attempt);
@@ -55,6 +57,7 @@ class Guess {
   const GuessOptions& options_;
   std::vector<PathPlanner> planners_;  // one for each model
   std::deque<SideStep> side_steps_;    // likewise
+  mutable std::vector<std::unique_ptr<SpaceTimePlanner>> among_;  // likewise, made when first needed
   TeamGuess guess_;
 };
 
@@ -65,6 +68,7 @@ Guess::Guess(const world::Scenario& scenario, const world::StaticMap& map, const
     planners_.emplace_back(map, model);
     side_steps_.emplace_back(map, model, scenario.margins.obstacle);
   }
+  among_.resize(scenario.models.size());
   guess_.seconds.field = watch.seconds();
 }
 
@@ -79,6 +83,21 @@ std::optional<Path> Guess::find_path(int robot, std::span<const Bump> bumps,
                             .quickest = scenario_.robots.size() == 1 && bumps.empty(),
                             .deadline = options_.deadline};
   return find_path_from(who, who.start, options);
+}
+
+std::optional<Path> Guess::find_path_among(int robot, std::span<const Traffic> traffic, double pace) const {
+  const world::Robot& who = scenario_.robots[idx(robot)];
+  if (who.start_speed != 0.0) return std::nullopt;
+  std::unique_ptr<SpaceTimePlanner>& planner = among_[idx(who.model)];
+  const vehicle::Model& model = scenario_.model_of(who);
+  if (!planner)
+    planner = std::make_unique<SpaceTimePlanner>(map_, model, speed_grid(model, options_.lattice));
+  constexpr double kExtra = 0.05;  // car lengths: for the velocity plan's steps and for the optimiser
+  return planner->plan(who.start, *who.goal, traffic,
+                       {.clearance = scenario_.margins.obstacle,
+                        .extra = kExtra * model.length(),
+                        .pace = pace,
+                        .deadline = options_.deadline});
 }
 
 // A path that begins in the gear the car is moving in: where the shortest does not, the car first brakes
@@ -120,6 +139,9 @@ TeamSearch::Sources Guess::sources() const {
                  int expansions) { return find_path(robot, bumps, parked, expansions); },
           [this](int robot, const Path& path, double s, double offset, double beside) {
             return side_steps_[idx(scenario_.robots[idx(robot)].model)].around(path, s, offset, beside);
+          },
+          [this](int robot, std::span<const Traffic> traffic, double pace) {
+            return find_path_among(robot, traffic, pace);
           }};
 }
 

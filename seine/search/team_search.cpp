@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "seine/search/rescue.hpp"
+
 namespace seine::search {
 namespace {
 
@@ -58,6 +60,7 @@ bool TeamSearch::solve(TeamState& state, const Deadline& deadline, std::span<con
     repair(state, deadline);
     const int left = unplaced(state);
     if (left == 0) return true;
+    if (attempt == 0 && rescue(state, given, deadline)) return true;
     if (left < fewest) {
       fewest = left;
       best = state;
@@ -201,6 +204,48 @@ TeamSearch::Placed TeamSearch::around_the_parked(int robot, const TeamState& sta
   if (!way) ++futile_[idx(robot)];
   if (!way) return nullptr;
   return coordinator_.place_on(robot, way, state, workspace_);
+}
+
+// A path that a space-time search finds among the others, where the ways at hand lead nowhere or make it late.
+TeamSearch::Placed TeamSearch::among(int robot, const TeamState& state, Placed best) {
+  if (!sources_.among || (best && !late(robot, best->arrival))) return best;
+  const std::vector<Traffic> traffic = coordinator_.traffic(robot, state);
+  for (const double pace : {0.7, 0.4}) {
+    ++effort_.rescues;
+    std::optional<Path> path = sources_.among(robot, traffic, pace);
+    if (!path) break;
+    const std::shared_ptr<Way> way = coordinator_.make_way(robot, std::move(*path));
+    if (!way || !keep(robot, way)) continue;
+    const Placed placed = coordinator_.place_on(robot, way, state, workspace_);
+    if (placed && (!best || placed->arrival < best->arrival)) best = placed;
+    if (placed) break;
+  }
+  return best;
+}
+
+// Few cars: all of them once more, one after the other among those before. Many: each that has no motion
+// together with those in its way.
+bool TeamSearch::rescue(TeamState& state, const TeamState& given, const Deadline& deadline) {
+  if (!sources_.among) return false;
+  constexpr std::size_t kFew = 3;
+  Rescue rescue(
+      coordinator_,
+      [this](int robot, const TeamState& others, Placed best) { return among(robot, others, best); },
+      workspace_);
+  std::vector<int> free;
+  for (int robot = 0; robot < coordinator_.robots(); ++robot)
+    if (!given[idx(robot)]) free.push_back(robot);
+  if (free.size() <= kFew) return rescue.run(free, state, deadline);
+  for (int robot = 0; robot < coordinator_.robots(); ++robot) {
+    if (state[idx(robot)]) continue;
+    std::vector<int> group{robot};
+    if (rescue.run(group, state, deadline)) continue;
+    for (const auto& conflict : coordinator_.conflicts(robot, *fastest_way(robot), state, workspace_))
+      if (group.size() < kFew && conflict.robot >= 0 && !coordinator_.fixed(conflict.robot))
+        group.push_back(conflict.robot);
+    if (!rescue.run(group, state, deadline)) return false;
+  }
+  return true;
 }
 
 bool TeamSearch::may_search() const {

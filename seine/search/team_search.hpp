@@ -48,6 +48,8 @@ class TeamSearch {
     /// length s.
     std::function<std::optional<Path>(int robot, const Path& path, double s, double offset, double beside)>
         side_step;
+    /// A path that can be driven in time among the traffic, at `pace` of the car's speed where it drives.
+    std::function<std::optional<Path>(int robot, std::span<const Traffic> traffic, double pace)> among;
   };
 
   TeamSearch(Coordinator& coordinator, Sources sources, const TeamSearchOptions& options, std::uint64_t seed);
@@ -60,6 +62,7 @@ class TeamSearch {
     int paths = 0;       ///< searched for
     int side_steps = 0;  ///< that were free of obstacles
     int placements = 0;  ///< velocity plans among the others, over all ways
+    int rescues = 0;     ///< space-time searches
   };
   const Effort& effort() const { return effort_; }
   /// Lowers the sum of arrivals of a complete state; never makes it worse.
@@ -73,6 +76,8 @@ class TeamSearch {
                    double latest = std::numeric_limits<double>::infinity());
   Placed detour(int robot, const TeamState& state, Placed best, int tries);
   Placed around_the_parked(int robot, const TeamState& state, bool goals);
+  Placed among(int robot, const TeamState& state, Placed best);
+  bool rescue(TeamState& state, const TeamState& given, const Deadline& deadline);
   bool may_search() const;
   Placed place_somehow(int robot, const TeamState& state);
   void repair(TeamState& state, const Deadline& deadline);

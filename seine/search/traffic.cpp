@@ -69,6 +69,85 @@ std::vector<Vec2> enclosing_polygon(const geom::Convex& shape) {
   return geom::convex_hull(std::move(points));
 }
 
+// What moves less than this within an event, in shares of its reach, need not have one for every tick.
+constexpr double kStill = 1e-3;
+// What moves further than this within one tick has several events for it.
+constexpr double kLeap = 0.5;
+// Motions of more events than this (an hour at walking pace) are told ever more coarsely towards their end.
+constexpr std::size_t kManyEvents = 1 << 16, kCoarserEvery = 1 << 13;
+
+// A moving obstacle between ticks: how far its points get from a pose in a span of time.
+class ObstacleWalker {
+ public:
+  ObstacleWalker(std::span<const world::Waypoint> motion, double reach, double tick)
+      : motion_(motion), reach_(reach), tick_(tick) {
+    constexpr double kLast = 1 << 28;
+    rest_ = static_cast<int>(std::clamp(std::ceil(motion.back().t / tick + 0.5), 0.0, kLast));
+  }
+
+  int rest() const { return rest_; }  // the tick from which on it stands
+  geom::Pose2 middle(int q, int span) const { return search::pose_at(motion_, (q + 0.5 * (span - 1)) * tick_); }
+  // Of any point of the body from its place at the middle of the ticks [q, q + span), m.
+  double away(int q, int span) const {
+    const double begin = (q - 0.5) * tick_, end = (q + span - 0.5) * tick_;
+    const geom::Pose2 pose = middle(q, span);
+    double most = std::max(between(pose, search::pose_at(motion_, begin)),
+                           between(pose, search::pose_at(motion_, end)));
+    for (auto w = first_after(begin); w != motion_.end() && w->t <= end; ++w)
+      most = std::max(most, between(pose, w->pose));
+    return most;
+  }
+  // Of any point from its last place, after the last tick.
+  double away_for_good() const {
+    double most = 0.0;
+    for (auto w = first_after((rest_ - 0.5) * tick_); w != motion_.end(); ++w)
+      most = std::max(most, between(motion_.back().pose, w->pose));
+    return most;
+  }
+  // At most `most`: as long as it hardly moves.
+  int longest_span(int q, int most, double tolerance) const {
+    int span = std::min(most, rest_ - q);
+    while (span > 1 && away(q, span) > tolerance) span /= 2;
+    return std::max(span, 1);
+  }
+  struct Hop {
+    geom::Pose2 pose;
+    double away;
+  };
+  // One tick's motion in pieces in which no point gets further than `limit`.
+  std::vector<Hop> hops(int q, double limit) const {
+    constexpr double kMost = 1000.0;
+    const double begin = (q - 0.5) * tick_, end = (q + 0.5) * tick_;
+    std::vector<geom::Pose2> corners{search::pose_at(motion_, begin)};
+    for (auto w = first_after(begin); w != motion_.end() && w->t < end; ++w) corners.push_back(w->pose);
+    corners.push_back(search::pose_at(motion_, end));
+    std::vector<Hop> hops;
+    for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
+      const geom::Pose2 &a = corners[i], &b = corners[i + 1];
+      const double way = between(a, b), turn = geom::wrap_angle(b.heading - a.heading);
+      const int count = static_cast<int>(std::clamp(std::ceil(0.5 * way / limit), 1.0, kMost));
+      for (int k = 0; k < count; ++k) {
+        const double f = (k + 0.5) / count;
+        hops.push_back({{a.x + f * (b.x - a.x), a.y + f * (b.y - a.y), a.heading + f * turn}, 0.5 * way / count});
+      }
+    }
+    return hops;
+  }
+
+ private:
+  std::span<const world::Waypoint>::iterator first_after(double t) const {
+    return std::lower_bound(motion_.begin(), motion_.end(), t,
+                            [](const world::Waypoint& w, double at) { return w.t < at; });
+  }
+  double between(const geom::Pose2& a, const geom::Pose2& b) const {
+    return norm(b.position() - a.position()) + reach_ * std::abs(geom::wrap_angle(b.heading - a.heading));
+  }
+
+  std::span<const world::Waypoint> motion_;
+  double reach_, tick_;
+  int rest_ = 0;
+};
+
 }  // namespace
 
 std::span<Vec2> MovingBody::add_event(int begin, int end) {
@@ -126,29 +205,31 @@ MovingBody::MovingBody(const geom::Convex& shape, std::span<const world::Waypoin
   const SweptFootprint footprint(polygon);
   corners_ = footprint.corners();
   boxes_ = footprint.is_box();
-  const int rest = std::max(0, static_cast<int>(std::ceil(motion.back().t / tick + 0.5)));
-  std::size_t next = 0;  // first waypoint later than the span of this tick
-  for (int q = 0; q <= rest; ++q) {
-    const geom::Pose2 pose = search::pose_at(motion, q * tick);
-    double away = 0.0;
-    const auto include = [&](const geom::Pose2& other) {
-      away = std::max(away, norm(other.position() - pose.position()) +
-                                footprint.reach() * std::abs(geom::wrap_angle(other.heading - pose.heading)));
-    };
-    include(search::pose_at(motion, (q - 0.5) * tick));
-    include(search::pose_at(motion, (q + 0.5) * tick));
-    while (next > 0 && motion[next - 1].t >= (q - 0.5) * tick) --next;
-    for (; next < motion.size() && motion[next].t <= (q + 0.5) * tick; ++next)
-      if (motion[next].t >= (q - 0.5) * tick) include(motion[next].pose);
-    const std::span<Vec2> out = add_event(q, q == rest ? kForever : q + 1);
-    events_.back().turned = footprint.grow(pose, away, out);
+  const double reach = footprint.reach();
+  const ObstacleWalker walker(motion, reach, tick);
+  double tolerance = kStill * reach;
+  int span = 1;
+  for (int q = 0; q < walker.rest(); q += span) {
+    span = walker.longest_span(q, 2 * span, tolerance);
+    if (span > 1 || walker.away(q, 1) <= kLeap * reach) {
+      const std::span<Vec2> out = add_event(q, q + span);
+      events_.back().turned = footprint.grow(walker.middle(q, span), walker.away(q, span), out);
+    } else {
+      for (const ObstacleWalker::Hop& hop : walker.hops(q, kLeap * reach)) {
+        const std::span<Vec2> out = add_event(q, q + 1);
+        events_.back().turned = footprint.grow(hop.pose, hop.away, out);
+      }
+    }
+    if (events_.size() > kManyEvents && events_.size() % kCoarserEvery == 0) tolerance *= 2.0;
   }
+  const std::span<Vec2> out = add_event(walker.rest(), kForever);
+  events_.back().turned = footprint.grow(motion.back().pose, walker.away_for_good(), out);
   finish();
 }
 
 geom::Pose2 pose_at(std::span<const world::Waypoint> motion, double t) {
-  const auto next = std::find_if(motion.begin(), motion.end(),
-                                 [t](const world::Waypoint& waypoint) { return waypoint.t > t; });
+  const auto next = std::upper_bound(motion.begin(), motion.end(), t,
+                                     [](double at, const world::Waypoint& waypoint) { return at < waypoint.t; });
   if (next == motion.begin()) return motion.front().pose;
   const geom::Pose2& a = std::prev(next)->pose;
   if (next == motion.end()) return a;
@@ -161,12 +242,13 @@ geom::Pose2 pose_at(std::span<const world::Waypoint> motion, double t) {
 std::vector<MovingPart> moving_parts(const world::Scenario& scenario) {
   std::vector<MovingPart> parts;
   for (const world::Obstacle& obstacle : scenario.obstacles) {
-    if (obstacle.motion.empty()) continue;
+    const int index = static_cast<int>(&obstacle - scenario.obstacles.data());
+    if (world::stands_still(obstacle)) continue;
     if (const auto* circle = std::get_if<world::Circle>(&obstacle.shape)) {
-      parts.push_back({{{circle->center}, circle->radius}, obstacle.motion});
+      parts.push_back({{{circle->center}, circle->radius}, obstacle.motion, index});
     } else {
       for (std::vector<Vec2>& part : geom::convex_parts(std::get<std::vector<Vec2>>(obstacle.shape)))
-        parts.push_back({{std::move(part), 0.0}, obstacle.motion});
+        parts.push_back({{std::move(part), 0.0}, obstacle.motion, index});
     }
   }
   return parts;

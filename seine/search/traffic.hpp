@@ -59,14 +59,38 @@ class MovingBody {
   bool boxes_ = false;
 };
 
+/// Something that moves while the car drives, by a motion that is known, and how far to stay from it.
+struct Traffic {
+  const MovingBody* body = nullptr;
+  double clearance = 0.0;  ///< m
+};
+
+/// Whether a convex polygon keeps the clearance to the body during one of its events. @param turned a box
+/// around the polygon; @param is_box the polygon is that box
+inline bool apart(const OrientedBox& turned, std::span<const geom::Vec2> polygon, bool is_box, const MovingBody& body,
+           int event, double clearance) {
+  // Starts that touch, or stand exactly at the margin, are legal: as much is forgiven to rounding, m.
+  constexpr double kTouch = 1e-6;
+  const OrientedBox& other = body.events()[static_cast<std::size_t>(event)].turned;
+  const Standing boxes = standing(turned, other, clearance - kTouch);
+  if (boxes == Standing::kApart) return true;
+  if (is_box && body.boxes()) {
+    if (boxes == Standing::kOverlap) return false;
+    return squared_distance(turned, other) >= (clearance - kTouch) * (clearance - kTouch);
+  }
+  return apart(polygon, body.polygon(event), clearance);
+}
+
 /// Where a moving obstacle's body frame is at time t: straight between waypoints, heading the short way
 /// round.
 geom::Pose2 pose_at(std::span<const world::Waypoint> motion, double t);
 
-/// The moving obstacles of a scenario as convex parts, each in its obstacle's body frame.
+/// The moving obstacles of a scenario (those that stand still belong to the map) as convex parts, each in its
+/// obstacle's body frame.
 struct MovingPart {
   geom::Convex shape;
   std::span<const world::Waypoint> motion;  ///< of the scenario, which must outlive it
+  int obstacle = -1;                        ///< index into Scenario::obstacles
 };
 std::vector<MovingPart> moving_parts(const world::Scenario& scenario);
 

@@ -230,7 +230,8 @@ void Occupied::add(std::span<const Mark> marks) {
       lasting_.back().begin = std::min(mark.begin, ticks_ - 1);
       continue;
     }
-    for (int q = mark.begin; q < std::min(mark.end, ticks_); ++q)
+    // What is later than the last row belongs to it.
+    for (int q = std::min(mark.begin, ticks_ - 1); q < std::min(mark.end, ticks_); ++q)
       set_range(&bits_[idx(q) * stride_], mark.first, mark.last);
   }
 }
@@ -248,16 +249,8 @@ void Occupied::finish() {
 
 bool apart(const SpeedLattice& lattice, std::size_t group, const MovingBody& body, std::size_t event,
            double clearance) {
-  // Starts that touch, or stand exactly at the margin, are legal: as much is forgiven to rounding, m.
-  constexpr double kTouch = 1e-6;
-  const OrientedBox &a = lattice.groups()[group].turned, &b = body.events()[event].turned;
-  const Standing boxes = standing(a, b, clearance - kTouch);
-  if (boxes == Standing::kApart) return true;
-  if (lattice.boxes() && body.boxes()) {
-    if (boxes == Standing::kOverlap) return false;
-    return squared_distance(a, b) >= (clearance - kTouch) * (clearance - kTouch);
-  }
-  return apart(lattice.polygon(group), body.polygon(static_cast<int>(event)), clearance);
+  return apart(lattice.groups()[group].turned, lattice.polygon(group), lattice.boxes(), body,
+               static_cast<int>(event), clearance);
 }
 
 VelocityPlan plan_velocity(const SpeedLattice& lattice, VelocityWorkspace& workspace,

@@ -250,7 +250,7 @@ std::vector<std::string> check(const Scenario& scenario, const StaticMap& map) {
     const std::string name = name_of(obstacle, i);
     const bool fine = check_obstacle(obstacle, name, out);
     obstacles_fine &= fine;
-    if (!fine || obstacle.motion.empty()) continue;
+    if (!fine || stands_still(obstacle)) continue;
     const std::vector<Convex> body = body_of(obstacle);
     check_moving(starts, body, pose_at_start(obstacle.motion), name + " (moving, at t = 0)", margin, out);
     check_moving(goals, body, obstacle.motion.back().pose, name + " (moving, where it comes to rest)", margin,

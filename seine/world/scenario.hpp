@@ -37,6 +37,17 @@ struct Obstacle {
   std::vector<Waypoint> motion;                             ///< times strictly increasing
 };
 
+/// Whether the obstacle is in one place from t = 0 on, with or without a `motion`: it is then an obstacle like
+/// any static one, which paths lead round.
+inline bool stands_still(const Obstacle& obstacle) {
+  const auto& motion = obstacle.motion;
+  for (std::size_t i = 0; i + 1 < motion.size(); ++i) {
+    const geom::Pose2 &a = motion[i].pose, &b = motion[i + 1].pose;
+    if (motion[i + 1].t > 0.0 && (a.x != b.x || a.y != b.y || a.heading != b.heading)) return false;
+  }
+  return true;
+}
+
 struct Robot {
   std::string name;
   int model = 0;  ///< index into Scenario::models

@@ -83,10 +83,14 @@ void StaticMap::add_pieces(const Scenario& scenario) {
   for (std::size_t i = 0; i < scenario.obstacles.size(); ++i) {
     const Obstacle& obstacle = scenario.obstacles[i];
     names_.push_back(display_name(obstacle, i));
-    if (!obstacle.motion.empty()) continue;
+    if (!stands_still(obstacle)) continue;
     const int index = static_cast<int>(i);
+    const auto add = [&](geom::Convex shape) {
+      if (!obstacle.motion.empty()) shape = geom::placed(shape, obstacle.motion.back().pose);
+      pieces_.push_back({std::move(shape), {}, index});
+    };
     if (const auto* circle = std::get_if<Circle>(&obstacle.shape)) {
-      pieces_.push_back({{{circle->center}, circle->radius}, {}, index});
+      add({{circle->center}, circle->radius});
       continue;
     }
     const auto& polygon = std::get<std::vector<Vec2>>(obstacle.shape);
@@ -94,7 +98,7 @@ void StaticMap::add_pieces(const Scenario& scenario) {
       throw InputError(names_.back() + ": " + why + "; expected a simple polygon");
     }
     for (std::vector<Vec2>& part : geom::convex_parts(polygon)) {
-      pieces_.push_back({{std::move(part), 0.0}, {}, index});
+      add({std::move(part), 0.0});
     }
   }
   if (!scenario.map) return;

@@ -1,0 +1,79 @@
+#include "seine/search/rescue.hpp"
+
+#include <algorithm>
+
+#include "seine/search/team_search.hpp"
+
+namespace seine::search {
+namespace {
+
+// How long the first car waits at its start, in times it needs alone.
+constexpr double kDelays[] = {0.0, 0.5, 1.0, 2.0};
+constexpr int kMostOrders = 6;
+
+std::size_t idx(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+}  // namespace
+
+bool Rescue::run(std::span<const int> group, TeamState& state, const Deadline& deadline) {
+  std::vector<int> order(group.begin(), group.end());
+  std::sort(order.begin(), order.end());
+  double alone = 0.0;
+  for (const int robot : order)
+    if (!coordinator_.ways(robot).empty()) alone = std::max(alone, coordinator_.alone(robot));
+  TeamState without = state;
+  for (const int robot : order) without[idx(robot)] = nullptr;
+  for (const double delay : kDelays) {
+    if (delay > 0.0 && order.size() < 2) break;
+    TeamState best;
+    int tried = 0;
+    do {
+      if (deadline.expired()) break;
+      TeamState trial = without;
+      if (!attempt(order, delay * alone, trial)) continue;
+      settle(order, trial);
+      if (best.empty() || sum_of_arrivals(trial) < sum_of_arrivals(best)) best = std::move(trial);
+    } while (++tried < kMostOrders && std::next_permutation(order.begin(), order.end()));
+    std::sort(order.begin(), order.end());
+    if (best.empty()) continue;
+    state = std::move(best);
+    return true;
+  }
+  return false;
+}
+
+bool Rescue::attempt(const std::vector<int>& order, double delay, TeamState& state) {
+  for (const int robot : order) {
+    const bool waits = robot == order.front() && delay > 0.0;
+    Placed placed;
+    if (waits) {
+      for (const WayPtr& way : coordinator_.ways(robot)) {
+        Placed other = coordinator_.place_after(delay, robot, way, state, workspace_);
+        if (other && (!placed || other->arrival < placed->arrival)) placed = std::move(other);
+      }
+    } else {
+      placed = among_(robot, state, coordinator_.place(robot, state, workspace_));
+    }
+    if (!placed) return false;
+    state[idx(robot)] = std::move(placed);
+  }
+  return true;
+}
+
+// Each once more among the others, as soon as it can.
+void Rescue::settle(const std::vector<int>& order, TeamState& state) {
+  constexpr int kRounds = 2;
+  constexpr double kWorthwhile = 1e-3;  // s
+  for (int round = 0; round < kRounds; ++round)
+    for (const int robot : order) {
+      const double arrival = state[idx(robot)]->arrival;
+      TeamState others = state;
+      others[idx(robot)] = nullptr;
+      Placed sooner = coordinator_.place(robot, others, workspace_, arrival - kWorthwhile);
+      if (sooner) state[idx(robot)] = std::move(sooner);
+    }
+}
+
+}  // namespace seine::search

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "seine/base/deadline.hpp"
+#include "seine/search/coordinator.hpp"
+
+namespace seine::search {
+
+/// A few cars in a narrow place, or among moving obstacles, that velocity planning on fixed ways could not
+/// bring through: one after the other, each by a space-time search among those before it, in every order. The
+/// first car may also leave late, which gives the others the time to make way.
+class Rescue {
+ public:
+  using Placed = std::shared_ptr<const Placement>;
+  /// A motion among the others of `state`, found by a space-time search when that is better than `best`.
+  using Among = std::function<Placed(int robot, const TeamState& state, Placed best)>;
+
+  Rescue(const Coordinator& coordinator, Among among, CoordinatorWorkspace& workspace)
+      : coordinator_(coordinator), among_(std::move(among)), workspace_(workspace) {}
+
+  /// Gives the cars of `group` (few) new motions among the others of `state`, which keep theirs. False: not
+  /// found, `state` as it was.
+  bool run(std::span<const int> group, TeamState& state, const Deadline& deadline);
+
+ private:
+  bool attempt(const std::vector<int>& order, double delay, TeamState& state);
+  void settle(const std::vector<int>& order, TeamState& state);
+
+  const Coordinator& coordinator_;
+  Among among_;
+  CoordinatorWorkspace& workspace_;
+};
+
+}  // namespace seine::search
