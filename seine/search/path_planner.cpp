@@ -8,6 +8,7 @@
 #include "seine/geom/convex.hpp"
 #include "seine/search/cost_to_go_cache.hpp"
 #include "seine/search/hybrid_astar.hpp"
+#include "seine/search/short_move.hpp"
 
 namespace seine::search {
 namespace {
@@ -17,6 +18,7 @@ constexpr double kSlack = 0.025;       // car lengths, on top of the clearance w
 constexpr double kEaseRadius = 1.5;    // car lengths around a tight start or goal in which it has less slack
 constexpr double kShortStretch = 0.3;  // car lengths: stretches in one gear below this are avoided
 constexpr double kTouch = 1e-9;        // m: rounding of a start that stands exactly at its clearance
+constexpr double kQuicker = 0.9;       // a short move by words must save a tenth of the time
 constexpr double kDiscCell =
     0.35;  // of the car's width: the side of a heuristic cell, small enough that walls stay tight
 
@@ -99,6 +101,8 @@ struct PathPlanner::Impl {
   FootprintChecker checker(const geom::Pose2& start, const geom::Pose2& goal,
                            const PathOptions& options) const;
   std::optional<Path> plan(const geom::Pose2& start, const geom::Pose2& goal, const PathOptions& options);
+  std::optional<Path> climb_ladder(const FootprintChecker& free, double room_start, double room_goal,
+                                   const Route& ends, const PathOptions& options);
   LatticeResult climb(const Rung& rung, const FootprintChecker& checker, const Route& ends, bool backwards,
                       const PathOptions& options, int expansions);
 
@@ -193,6 +197,19 @@ std::optional<Path> PathPlanner::Impl::plan(const geom::Pose2& start, const geom
   const double room_start = free.exact_room(start), room_goal = free.exact_room(goal);
   if (std::min(room_start, room_goal) < -kTouch) return std::nullopt;
 
+  std::optional<Path> path = climb_ladder(free, room_start, room_goal, {start, goal, {}}, options);
+  // The ladder counts metres and likes long stretches; for a goal close by seconds decide.
+  if (!options.short_moves || !options.bumps.empty()) return path;
+  const std::optional<Route> move = short_move(start, goal, free);
+  if (move && (!path || driving_time(move->arcs, model) < kQuicker * driving_time(*path, model)))
+    return sampled(*move, kPathSpacing * length);
+  return path;
+}
+
+std::optional<Path> PathPlanner::Impl::climb_ladder(const FootprintChecker& free, double room_start,
+                                                    double room_goal, const Route& ends,
+                                                    const PathOptions& options) {
+  const geom::Pose2 &start = ends.start, &goal = ends.goal;
   int left = options.max_expansions;
   // Whether there may be an end that can only be left or reached by moves shorter than a step.
   bool slot = std::min(room_start, room_goal) < kTightSlot * length;

@@ -35,6 +35,8 @@ struct PathOptions {
   /// than `parked_clearance` (m) to the own start or goal do not count.
   std::span<const std::vector<geom::Vec2>> parked;
   double parked_clearance = 0.05;
+  /// Whether a goal close by may be reached in a few short moves: not by a car that is already moving.
+  bool short_moves = true;
   Deadline deadline;
 };
 
@@ -47,7 +49,8 @@ class PathPlanner {
   PathPlanner(PathPlanner&&) noexcept;
 
   /// The path from start to goal, or nothing when none was found within the limits. Deterministic. Curvatures
-  /// are at most κ_max, as a rule at most κ_max / 1.1. A start that is the goal gives a path of one point.
+  /// are at most κ_max, as a rule at most κ_max / 1.1. A start that is the goal gives a path of one point. A
+  /// goal straight ahead or behind and close by may be missed by as little as the certificate grants.
   std::optional<Path> plan(const geom::Pose2& start, const geom::Pose2& goal,
                            const PathOptions& options) const;
 
