@@ -78,6 +78,7 @@ class Proof {
     if (with_net_) crossings_ = crossings_of(context_.scenario);
     const Phases phases = phases_of(context_.scenario, crossings_);
     context_.braking_from = phases.first_catch();
+    context_.carries = carries_of(context_.scenario, crossings_);
     scene_.horizon = horizon_of(context_.scenario, plan_, phases);
     chart_robots();
     chart_obstacles();
