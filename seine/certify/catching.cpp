@@ -6,6 +6,7 @@
 
 #include "seine/certify/tolerances.hpp"
 #include "seine/geom/convex.hpp"
+#include "seine/net/shape.hpp"
 
 namespace seine::certify {
 
@@ -28,6 +29,17 @@ Phases phases_of(const world::Scenario& scenario,
   return phases;
 }
 
+std::vector<Context::Carry> carries_of(const world::Scenario& scenario,
+                                       const std::vector<std::optional<net::Crossing>>& crossings) {
+  std::vector<Context::Carry> carries;
+  for (std::size_t i = 0; i < crossings.size(); ++i) {
+    const double drag = scenario.targets[i].drag;
+    if (crossings[i] && crossings[i]->state.time >= 0.0 && drag > 0.0)
+      carries.push_back({crossings[i]->state.time, net::carry_speed(drag), static_cast<int>(i)});
+  }
+  return carries;
+}
+
 std::vector<net::Catch> CatchCheck::run(const std::vector<std::optional<net::Crossing>>& crossings) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   std::vector<net::Catch> catches;
@@ -48,9 +60,22 @@ std::vector<net::Catch> CatchCheck::run(const std::vector<std::optional<net::Cro
     look_at_team(time);
     catches.back() =
         net::measure_catch(net_, context_.scenario.targets[i], *crossings[i], attachments_, motion_);
-    judge(i, catches.back());
+    net::Catch& caught = catches.back();
+    caught.contact_margin =
+        std::min(caught.contact_margin, margin_where_it_lands(i, *crossings[i], caught.depth));
+    judge(i, caught);
   }
   return catches;
+}
+
+// What falls slowly meets the net long after it has passed the rim: where the flight really is then, and the
+// team.
+double CatchCheck::margin_where_it_lands(std::size_t target, const net::Crossing& crossing, double depth) {
+  const net::Target& falling = context_.scenario.targets[target];
+  const auto landing = net::Flight(falling).crossing(net_.rim() - depth);
+  if (!landing) return std::numeric_limits<double>::infinity();
+  look_at_team(landing->state.time);
+  return net::margin_inside(attachments_, landing->state.position.ground()) - falling.radius - crossing.error;
 }
 
 void CatchCheck::look_at_team(double t) {

@@ -19,6 +19,10 @@ std::vector<std::optional<net::Crossing>> crossings_of(const world::Scenario& sc
 /// are never caught count for nothing here.
 Phases phases_of(const world::Scenario& scenario, const std::vector<std::optional<net::Crossing>>& crossings);
 
+/// How slowly what has been caught must be carried; only targets with drag ask for that.
+std::vector<Context::Carry> carries_of(const world::Scenario& scenario,
+                                       const std::vector<std::optional<net::Crossing>>& crossings);
+
 /// Every target against the rules of a physical catch.
 class CatchCheck {
  public:
@@ -31,6 +35,7 @@ class CatchCheck {
 
  private:
   void look_at_team(double t);
+  double margin_where_it_lands(std::size_t target, const net::Crossing& crossing, double depth);
   /// The highest of the obstacles under the net at time t that the net passes over, m.
   double highest_under(double t) const;
   void judge(std::size_t target, const net::Catch& caught);

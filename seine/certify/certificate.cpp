@@ -15,6 +15,8 @@ namespace {
 // Slabs hold about this many cells: fewer, longer slabs let too many pairs through their box test.
 constexpr int kCellsPerSlab = 4;
 constexpr int kFewestSlabs = 8, kMostSlabs = 1024;
+// Where nothing moves at all this long is looked at, s.
+constexpr double kShortestHorizon = 1e-3;
 // A moving obstacle's cells: it moves this far in one, in car lengths.
 constexpr double kMovingGrain = 0.25;
 
@@ -47,7 +49,7 @@ std::vector<Finding> malformations(const Context& context, const traj::TeamTraje
 }
 
 double horizon_of(const world::Scenario& scenario, const traj::TeamTrajectory& plan, const Phases& phases) {
-  double horizon = plan.makespan();
+  double horizon = std::max(plan.makespan(), kShortestHorizon);
   if (!phases.catches.empty()) horizon = std::max(horizon, phases.last_catch() + net::kHoldTime);
   for (const world::Obstacle& obstacle : scenario.obstacles) {
     if (!obstacle.motion.empty()) horizon = std::max(horizon, obstacle.motion.back().t);
@@ -76,6 +78,7 @@ class Proof {
     if (with_net_) crossings_ = crossings_of(context_.scenario);
     const Phases phases = phases_of(context_.scenario, crossings_);
     context_.braking_from = phases.first_catch();
+    context_.carries = carries_of(context_.scenario, crossings_);
     scene_.horizon = horizon_of(context_.scenario, plan_, phases);
     chart_robots();
     chart_obstacles();

@@ -41,6 +41,7 @@ enum class Kind {
   net_obstacle,  ///< something too tall to pass under lies inside the net
   target_catch,  ///< a target misses the net, or the net cannot hold it ("catch")
   braking,       ///< a car brakes or accelerates too hard for what lies in the net
+  carrying,      ///< a car drives so fast that the air may blow what lies in the net out of it
   delivery,      ///< the team does not come to rest where it must
   undecided,     ///< the proof ran out of its deadline or its depth: counted as broken
 };

@@ -78,6 +78,10 @@ class Charter {
     for (Finding& finding : limits_.findings()) chart_.findings.push_back(std::move(finding));
     if (failed_) return;
     chart_.complete = true;
+    if (trajectory.stands) {
+      const geom::Pose2& pose = *trajectory.stands;
+      mover().add_rest(0.0, horizon, {pose.position(), pose.direction()});
+    }
     rest_for_good(horizon);
   }
 

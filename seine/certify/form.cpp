@@ -54,9 +54,14 @@ class FormCheck {
         robot_(robot),
         asked_(context.scenario.robots[static_cast<std::size_t>(robot)]),
         model_(context.scenario.model_of(asked_)),
-        segments_(trajectory.segments) {}
+        segments_(trajectory.segments),
+        stands_(trajectory.stands) {}
 
   std::vector<Finding> run() {
+    if (stands_) {
+      check_standing();
+      return std::move(findings_);
+    }
     double begin = 0.0;
     check_start();
     for (std::size_t i = 0; i < segments_.size(); ++i) {
@@ -87,6 +92,19 @@ class FormCheck {
             place);
     require(kind, time, std::abs(geom::wrap_angle(state.pose.heading - wanted.heading)),
             tolerance::kStartHeading, heading);
+  }
+
+  /// A car without segments: its start is its goal, and nothing brings it to rest.
+  void check_standing() {
+    State still;
+    still.pose = *stands_;
+    check_pose(Kind::start, 0.0, still, asked_.start, "the distance (m) from its start",
+               "the angle (rad) to its start heading");
+    require(Kind::start, 0.0, std::abs(asked_.start_speed), tolerance::kSpeed,
+            "the start speed (m/s) of a car that stands");
+    if (!asked_.goal) return;
+    check_pose(Kind::goal, 0.0, still, *asked_.goal, "the distance (m) from its goal",
+               "the angle (rad) to its goal heading");
   }
 
   void check_start() {
@@ -197,13 +215,27 @@ class FormCheck {
   const world::Robot& asked_;
   const vehicle::Model& model_;
   const std::vector<Segment>& segments_;
+  const std::optional<geom::Pose2>& stands_;  // a car that has no segments
   std::vector<Finding> findings_;
 };
 
 }  // namespace
 
+namespace {
+
+std::string why_no_stand(const traj::RobotTrajectory& trajectory) {
+  if (!trajectory.segments.empty()) return "it has segments and also a place where it stands";
+  const geom::Pose2& pose = *trajectory.stands;
+  const bool sane =
+      std::abs(pose.x) <= kLargest && std::abs(pose.y) <= kLargest && std::abs(pose.heading) <= kLargest;
+  return sane ? "" : "a number of the pose at which it stands is not a number or too large";
+}
+
+}  // namespace
+
 std::string why_malformed(const traj::RobotTrajectory& trajectory) {
-  if (trajectory.segments.empty()) return "it has no segments";
+  if (trajectory.stands) return why_no_stand(trajectory);
+  if (trajectory.segments.empty()) return "it has no segments and no place where it stands";
   std::size_t pieces = 0;
   for (std::size_t i = 0; i < trajectory.segments.size(); ++i) {
     const Segment& s = trajectory.segments[i];

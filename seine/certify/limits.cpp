@@ -15,7 +15,8 @@ constexpr int kMostSteps = 1 << 18;  // of one car; sane plans need some hundred
 // A value met beyond the limit is followed up until nothing in its cell is this much worse, relative to the
 // limit.
 constexpr double kWorstResolution = 1e-3;
-enum RuleIndex : std::size_t { kForward, kReverse, kBackwards, kTangential, kBraking = 7 };
+enum RuleIndex : std::size_t { kForward, kReverse, kBackwards, kTangential, kBraking = 7, kCarrying };
+constexpr std::size_t kMostCarries = 20;  // a mask has 32 bits
 
 const char* describe(Kind kind) {
   switch (kind) {
@@ -27,6 +28,8 @@ const char* describe(Kind kind) {
       return "accelerates or brakes by %.6g m/s²; its limit is %.6g";
     case Kind::braking:
       return "accelerates or brakes by %.6g m/s² with something in the net; %.6g is allowed";
+    case Kind::carrying:
+      return "drives at %.6g m/s; faster than %.6g the air may blow out of the net what lies in it";
     case Kind::lateral_acceleration:
       return "has a lateral acceleration of %.6g m/s²; its limit is %.6g";
     case Kind::curvature:
@@ -64,6 +67,11 @@ LimitProof::LimitProof(Context& context, int robot) : context_(context), robot_(
             rule(Kind::curvature, curvature, model.max_curvature()),
             rule(Kind::steering_rate, steering_rate, limits.steering_rate),
             rule(Kind::braking, tangential, net::kBraking)};
+  for (const Context::Carry& carry : context.carries) {
+    if (rules_.size() >= kCarrying + kMostCarries) break;
+    rules_.push_back(rule(Kind::carrying, pace, carry.speed));
+    rules_.back().other = carry.target;
+  }
   rules_[kBackwards].sign = -1.0;
   rules_[kBackwards].seen = tolerance::kBackwardsSeen;
   rules_[kBackwards].proved = tolerance::kSpeed;
@@ -77,11 +85,10 @@ double LimitProof::measure(const Rule& rule, const Sample& sample) {
 void LimitProof::check(const Stretch& stretch, const Sample& a, const Sample& b, const Bends& bends,
                        bool forwards) {
   Mask mask = 0;
-  for (std::size_t r = 0; r < kRules; ++r) {
+  for (std::size_t r = 0; r < rules_.size(); ++r) {
     rules_[r].worst = 0.0;
-    if (!std::isinf(rules_[r].limit)) mask |= 1u << r;
+    if (r < kBraking && !std::isinf(rules_[r].limit)) mask |= 1u << r;
   }
-  mask &= ~(1u << kBraking);
   mask &= ~(1u << (stretch.gear > 0.0 ? kReverse : kForward));
   if (forwards) mask &= ~(1u << kBackwards);
   cell_begin_ = stretch.clock(a.w);
@@ -89,13 +96,16 @@ void LimitProof::check(const Stretch& stretch, const Sample& a, const Sample& b,
   mask = unproved(mask, stretch, a, b, bends);
   if (mask != 0) refine(mask, stretch, a, b, 0);
   const bool harder = rules_[kTangential].limit > rules_[kBraking].limit;
-  if (harder && cell_end_ > context_.braking_from) check_braking(stretch, a, b, bends);
+  if (harder) check_from(context_.braking_from, kBraking, stretch, a, b, bends);
+  for (std::size_t r = kCarrying; r < rules_.size(); ++r)
+    check_from(context_.carries[r - kCarrying].from, r, stretch, a, b, bends);
 }
 
-void LimitProof::check_braking(const Stretch& stretch, const Sample& a, const Sample& b, const Bends& bends) {
-  const Mask only = 1u << kBraking;
-  const bool cut = context_.braking_from > cell_begin_;
-  const Sample from = cut ? stretch.sample(stretch.local(context_.braking_from), wheelbase_) : a;
+void LimitProof::check_from(double begin, std::size_t rule, const Stretch& stretch, const Sample& a,
+                            const Sample& b, const Bends& bends) {
+  if (cell_end_ <= begin) return;
+  const Mask only = 1u << rule;
+  const Sample from = begin > cell_begin_ ? stretch.sample(stretch.local(begin), wheelbase_) : a;
   if (unproved(only, stretch, from, b, bends) != 0) refine(only, stretch, from, b, 0);
 }
 
@@ -103,7 +113,7 @@ LimitProof::Mask LimitProof::unproved(Mask mask, const Stretch& stretch, const S
                                       const Bends& bends) {
   Mask open = 0;
   const double duration = (b.w - a.w) * stretch.h, range = b.u - a.u;
-  for (std::size_t r = 0; r < kRules; ++r) {
+  for (std::size_t r = 0; r < rules_.size(); ++r) {
     if ((mask & (1u << r)) == 0) continue;
     Rule& rule = rules_[r];
     const double at_a = measure(rule, a), at_b = measure(rule, b), top = std::max(at_a, at_b);
@@ -123,7 +133,7 @@ LimitProof::Mask LimitProof::unproved(Mask mask, const Stretch& stretch, const S
 void LimitProof::refine(Mask mask, const Stretch& stretch, const Sample& a, const Sample& b, int depth) {
   if (++steps_ % 512 == 0) context_.out_of_time();
   if (depth >= kDeepest || steps_ > kMostSteps || context_.expired.load(std::memory_order_relaxed)) {
-    for (std::size_t r = 0; r < kRules; ++r) {
+    for (std::size_t r = 0; r < rules_.size(); ++r) {
       if ((mask & (1u << r)) == 0 || rules_[r].worst > 0.0 || rules_[r].undecided) continue;
       rules_[r].undecided = true;
       rules_[r].undecided_time = stretch.clock(a.w);
@@ -148,7 +158,7 @@ std::vector<Finding> LimitProof::findings() const {
     for (const Episodes::Episode& e : rule.episodes.all()) {
       char what[160];
       std::snprintf(what, sizeof what, describe(rule.kind), e.value, rule.limit);
-      findings.push_back({{rule.kind, e.time, robot_, -1, e.value, rule.limit,
+      findings.push_back({{rule.kind, e.time, robot_, rule.other, e.value, rule.limit,
                            format("%s at t = %.4f s %s", name.c_str(), e.time, what)},
                           e.excess});
     }

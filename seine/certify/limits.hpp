@@ -23,6 +23,7 @@ class LimitProof {
   struct Rule {
     Kind kind;
     Quantity quantity;
+    int other = -1;  ///< the target for whose sake it is
     double sign;  ///< 0: of the magnitude; −1: of minus the value
     double limit;
     double seen;             ///< a value beyond it is a violation
@@ -33,12 +34,12 @@ class LimitProof {
     Episodes episodes;
   };
   using Mask = unsigned;
-  static constexpr std::size_t kRules = 8;
 
   static Rule rule(Kind kind, Quantity quantity, double limit);
   static double measure(const Rule& rule, const Sample& sample);
-  /// The limit that holds from the first catch on, on what lies after it of a cell.
-  void check_braking(const Stretch& stretch, const Sample& a, const Sample& b, const Bends& bends);
+  /// A limit that holds from a catch on, on what lies after it of a cell.
+  void check_from(double begin, std::size_t rule, const Stretch& stretch, const Sample& a, const Sample& b,
+                  const Bends& bends);
   /// Of the rules in `mask`, those not proved on the cell.
   Mask unproved(Mask mask, const Stretch& stretch, const Sample& a, const Sample& b, const Bends& bends);
   void refine(Mask mask, const Stretch& stretch, const Sample& a, const Sample& b, int depth);
@@ -47,7 +48,7 @@ class LimitProof {
   int robot_;
   double wheelbase_;
   double reach_;
-  std::array<Rule, kRules> rules_;
+  std::vector<Rule> rules_;  // those of RuleIndex, then one for each of the context's carries
   double cell_begin_ = 0.0, cell_end_ = 0.0;
   int steps_ = 0;
 };

@@ -57,6 +57,8 @@ const char* name_of(Kind kind) {
       return "catch";
     case Kind::braking:
       return "braking";
+    case Kind::carrying:
+      return "carrying";
     case Kind::delivery:
       return "delivery";
     case Kind::undecided:

@@ -40,6 +40,11 @@ struct Context {
   const world::StaticMap& map;
   const Options& options;
   double braking_from = std::numeric_limits<double>::infinity();  ///< s, the first catch
+  struct Carry {
+    double from, speed;  ///< s, m/s
+    int target;
+  };
+  std::vector<Carry> carries;  ///< from then on no car drives faster, for the sake of that target
   std::atomic<bool> expired{false};
 
   /// True once the deadline has passed; looks at the clock.

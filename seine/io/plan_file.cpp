@@ -1,6 +1,7 @@
 #include "seine/io/plan_file.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -129,6 +130,13 @@ traj::Segment read_segment(const Place& place) {
   return segment;
 }
 
+geom::Pose2 read_stand(const Place& place) {
+  std::array<double, 3> pose{};
+  std::size_t i = 0;
+  place.each(3, 3, [&](const Place& value) { pose[i++] = value.number(-kLargest, kLargest); });
+  return {pose[0], pose[1], pose[2]};
+}
+
 }  // namespace
 
 PlanFile parse_plan(std::string_view text, const std::string& file) {
@@ -145,6 +153,7 @@ PlanFile parse_plan(std::string_view text, const std::string& file) {
     const Place segments = robot.at("segments");
     segments.each(0, 100'000,
                   [&](const Place& entry) { trajectory.segments.push_back(read_segment(entry)); });
+    if (robot.has("stands")) trajectory.stands = read_stand(robot.at("stands"));
     if (trajectory.arrival() > kLongest)
       segments.fail(joined("last longer than ", number_text(kLongest), " s"));
   });

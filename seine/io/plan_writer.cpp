@@ -1,3 +1,4 @@
+#include <array>
 #include <cmath>
 
 #include "seine/io/certificate_json.hpp"
@@ -72,6 +73,10 @@ std::string robot_json(const world::Scenario& scenario, std::size_t index,
   object.add("name", robot.name);
   object.add("model", scenario.model_of(robot).name);
   object.add("arrival_s", trajectory.arrival());
+  if (trajectory.stands) {
+    const geom::Pose2& pose = *trajectory.stands;
+    object.add_raw("stands", list_text(std::array{pose.x, pose.y, pose.heading}, ", ", json_number));
+  }
   object.add_raw("segments", list_text(trajectory.segments, ",\n    ", segment_json));
   object.add_raw("states", states_json(trajectory, scenario.model_of(robot).wheelbase));
   return object.lines();

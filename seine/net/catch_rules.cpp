@@ -30,6 +30,10 @@ double impact_drop(double speed, double mass) {
   return 0.08 + 0.024 * speed * std::sqrt(mass / 0.25);
 }
 
+double carry_speed(double drag) {
+  return std::sqrt(kAirPush / drag);  // infinite for 0
+}
+
 Catch measure_catch(const Net& net, const Target& target, const Crossing& crossing,
                     std::span<const Vec2> attachments, const Motion& formation) {
   const Vec2 at = crossing.state.position.ground();
@@ -38,8 +42,9 @@ Catch measure_catch(const Net& net, const Target& target, const Crossing& crossi
   const double depth = loaded_depth(net, attachments);
   const double covered = target.radius + crossing.error;
   const Vec2 contact = at + (depth / falling) * sideways;
-  // To a team that speeds up, what lies in the net weighs backwards as well.
-  const Vec2 settled = contact - (depth / kGravity) * formation.acceleration;
+  // To a team that speeds up, what lies in the net weighs backwards as well; so the air pushes it.
+  const Vec2 air = (target.drag * geom::norm(formation.velocity)) * formation.velocity;
+  const Vec2 settled = contact - (depth / kGravity) * (formation.acceleration + air);
   const double speed = std::hypot(geom::norm(sideways), falling);
   return {.time = crossing.state.time,
           .rim_margin = margin_inside(attachments, at) - covered,

@@ -25,6 +25,7 @@ inline constexpr double kHoldTime = 1.0;   ///< s
 inline constexpr double kMaxSpeed = 11.0;  ///< m/s: faster was measured with losses
 inline constexpr double kMaxAngle = 0.25 * std::numbers::pi;  ///< rad from vertical
 inline constexpr double kBraking = 3.0;  ///< m/s² after the catch: more was not measured
+inline constexpr double kAirPush = 1.5;  ///< m/s²: what the air may push an object with while it is carried
 
 /// The fastest object, m/s, that does not bounce over the rim of a net whose middle hangs `depth` (m) below
 /// it: after one bounce it must turn 15 % short of √(2 g (D − r)). Rebound e as in Net.
@@ -36,12 +37,17 @@ double stopping_depth(double speed, double radius, double rebound);
 /// envelope of all drops.
 double impact_drop(double speed, double mass);
 
+/// How fast a team may carry an object of that drag (1/m), m/s: the air it is driven through pushes it
+/// backwards by drag · speed², and no more than kAirPush of that is known to leave it in the net. Infinite
+/// without drag.
+double carry_speed(double drag);
+
 /// What a catch comes to.
 struct Catch {
   double time = 0.0;        ///< s, when the target's centre falls through the rim plane
   double rim_margin = 0.0;  ///< m: that point to the nearest edge, less radius and prediction error
   /// m: the same where the flight has fallen by `depth` in a straight line, and where a plumb line of that
-  /// length then hangs as the formation accelerates: the smaller of both
+  /// length then hangs as the formation accelerates and the air pushes: the smaller of both
   double contact_margin = 0.0;
   double opening = 0.0;  ///< of the net then
   double depth = 0.0;    ///< m: how far its middle hangs below the rim

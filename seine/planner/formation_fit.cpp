@@ -97,7 +97,7 @@ class Fit {
     out.start_heading =
         first ? robot_.start.heading : search::pose_at(timed_.path, stretch.from + 1e-6).heading;
     out.end_heading = search::pose_at(timed_.path, stretch.to).heading;
-    if (first) out.points.front() = robot_.start.position();
+    if (first) out.points.front() = robot_.start.position(), out.wait = guess_.timing.wait;
     if (last && robot_.goal)
       out.points.back() = robot_.goal->position(), out.end_heading = robot_.goal->heading;
     const double inside = 1e-3 * length;

@@ -133,11 +133,11 @@ std::optional<search::FormationSettings> FormationGuesser::settings_for(int atte
 }
 
 std::optional<FormationGuess> FormationGuesser::guess(int attempt) {
-  const auto settings = settings_for(attempt);
+  auto settings = settings_for(attempt);
   if (!settings) return std::nullopt;
   if (attempt > 0 && !narrow_) offer_narrow_shapes();
   // The optimiser holds the net open longer than the guess did, if it has to.
-  if (attempt >= 3) search_.set_hold(0.0);
+  if (attempt >= 3) search_.set_hold(0.0), settings->wait_at_start = false;
   auto way = search_.find(*settings);
   if (!way) return std::nullopt;
   found_[static_cast<std::size_t>(attempt)] = true;

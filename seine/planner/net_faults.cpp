@@ -20,6 +20,7 @@ double severity_of(const certify::Violation& v) {
     case Kind::lateral_acceleration:
     case Kind::curvature:
     case Kind::steering_rate:
+    case Kind::carrying:
       return missed / (kShare * v.limit);
     case Kind::gear:
       return missed / kSpeed;

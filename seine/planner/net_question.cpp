@@ -180,7 +180,10 @@ class Asking {
                                 "(%.2f, %.2f), it has %.2f s",
                                 needed, point.x, point.y, task.time));
     // What the formation is expected to drive when the target comes.
-    const double top = team_speed(scenario_);
+    carry_ = std::min(carry_, net::carry_speed(target.drag));
+    if (std::isfinite(net::carry_speed(target.drag)))
+      question_.task.carries.push_back({at.time, net::carry_speed(target.drag)});
+    const double top = std::min(team_speed(scenario_), carry_);
     const Vec2 way = point - from;
     const double pace = std::min(kCruise * top, 1.3 * geom::norm(way) / std::max(task.time - leave, 0.1));
     const Vec2 drive = geom::norm(way) > 1e-9 ? pace * (way / geom::norm(way)) : Vec2{};
@@ -189,6 +192,7 @@ class Asking {
     // The deepest the net may hang: what is inside there and at the rim is inside between.
     task.contact_delay = most_depth_ / down;
     task.lean = most_depth_ / net::kGravity;
+    task.contact_margin += task.lean * target.drag * geom::squared_norm(drive);  // the air's push
     task.least_opening = net::kLeastOpening;
     task.held_opening = kHeldOpen, task.hold = net::kHoldTime;
     task.least_spread = std::sqrt(std::max(0.0, spread_ * spread_ - most_depth_ * most_depth_));
@@ -197,7 +201,7 @@ class Asking {
     question_.task.catches.push_back(task);
     const double room = 0.92 * inradius(net_.rest) - task.margin;
     question_.meetings.push_back({point + 0.5 * task.contact_delay * (velocity - drive),
-                                  std::clamp(0.8 * room, 0.08, 0.4), task.time});
+                                  std::clamp(0.8 * room, 0.08, 0.4), task.time, carry_});
     return true;
   }
 
@@ -241,6 +245,7 @@ class Asking {
   const Ablation& without_;
   const net::Net& net_;
   double spread_;
+  double carry_ = std::numeric_limits<double>::infinity();  // m/s, with what has been caught by then
   double least_depth_ = 0.0, most_depth_ = 0.0, ground_ = 0.0;
   NetQuestion question_;
 };
@@ -263,8 +268,11 @@ double least_time(const world::Scenario& scenario, Vec2 point, double margin) {
     for (std::size_t k = 0; k < scenario.robots.size(); ++k) {
       const world::Robot& robot = scenario.robots[k];
       const vehicle::Limits& limits = scenario.model_of(robot).limits;
-      const double arm = geom::norm(scenario.net->attachments[k].at);
-      const double distance = geom::dot(w, point - robot.start.position()) - arm + margin;
+      const Vec2 arm = scenario.net->attachments[k].at;
+      // While its car drives a metre, turning as sharply as it can, an attachment moves this far at most.
+      const double bend = scenario.model_of(robot).max_curvature();
+      const double lever = std::hypot(1.0 + bend * std::abs(arm.y), bend * arm.x);
+      const double distance = (geom::dot(w, point - robot.start * arm) + margin) / lever;
       const double top = std::max(limits.speed, limits.reverse_speed);
       soonest = std::min(soonest, least_time_for(distance, std::min(std::abs(robot.start_speed), top), top,
                                                  limits.acceleration));
@@ -272,6 +280,12 @@ double least_time(const world::Scenario& scenario, Vec2 point, double margin) {
     least = std::max(least, soonest);
   }
   return least;
+}
+
+bool NetQuestion::roomy(const std::vector<net::Catch>& catches) const {
+  return std::all_of(catches.begin(), catches.end(), [](const net::Catch& one) {
+    return one.contact_margin >= net::kContactMargin + kContactReserve && one.opening >= kHeldOpen;
+  });
 }
 
 NetQuestion ask_net(const world::Scenario& scenario, const Ablation& without) {

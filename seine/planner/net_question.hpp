@@ -19,6 +19,9 @@ struct NetQuestion {
   std::vector<search::Rendezvous> meetings;
   std::unique_ptr<world::StaticMap> tall;  ///< what the net can never pass over
   std::string refusal;                     ///< not empty: proved impossible, and why
+
+  /// Whether certified catches have what is asked of a plan beyond the certificate.
+  bool roomy(const std::vector<net::Catch>& catches) const;
 };
 
 NetQuestion ask_net(const world::Scenario& scenario, const Ablation& without);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "seine/base/error.hpp"
 #include "seine/net/catch_rules.hpp"
@@ -33,6 +34,7 @@ constexpr double kCorridorRaise = 0.001, kSpeedRaise = 0.003;   // m and m/s, on
 constexpr double kHoldingRaise = 0.1;                           // m²
 constexpr double kNetRaise = 0.01, kCatchRaise = 0.003;         // m, likewise
 constexpr double kOpeningRaise = 0.004, kSidewaysRaise = 0.05;  // of the net at rest; m/s
+constexpr double kCarryShare = 0.995;                           // of the speed, for each car that is too fast
 constexpr double kClearanceRaise = 0.01;                        // car lengths, on top of what was missed
 
 }  // namespace
@@ -56,9 +58,25 @@ PlanResult NetSession::run() {
     result_.reason = question_.refusal;
     return finish();
   }
+  if (options_.previous == nullptr && stand()) return finish();
   if (options_.previous != nullptr && go_on()) return finish();
   guess_and_solve();
   return finish();
+}
+
+// A team which already stands where it should, and meets there what comes, stays. Where its catches lack what
+// is asked beyond the certificate it had better move: then standing is for the case that nothing else is found.
+bool NetSession::stand() {
+  for (const world::Robot& robot : scenario_.robots) {
+    if (robot.start_speed != 0.0) return false;
+    result_.plan.robots.push_back(traj::RobotTrajectory::standing(robot.start));
+  }
+  if (certify() && question_.roomy(result_.certificate.catches)) return true;
+  if (result_.certified) stay_ = {result_.plan, result_.certificate};
+  result_.certified = false;
+  result_.certificate = {};
+  result_.plan = {};
+  return false;
 }
 
 void NetSession::guess_and_solve() {
@@ -230,6 +248,9 @@ void NetSession::raise_demands() {
         for (trajopt::CatchTask& c : net_.catches)
           c.held_opening += std::clamp(v.limit - v.value, 0.0, 0.03) + kOpeningRaise;
         break;
+      case certify::Kind::carrying:
+        for (trajopt::CarryTask& carry : net_.carries) carry.speed *= kCarryShare;
+        break;
       case certify::Kind::target_catch:
         raise_catch(static_cast<std::size_t>(v.other));
         break;
@@ -270,6 +291,10 @@ void NetSession::report(const char* stage, double fraction) const {
 }
 
 PlanResult NetSession::finish() {
+  if (!result_.certified && stay_) {
+    result_.certified = true;
+    std::tie(result_.plan, result_.certificate) = *stay_;
+  }
   if (result_.certified) {
     result_.reason.clear();
     result_.quality = measure(result_.plan);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "seine/base/workers.hpp"
@@ -20,6 +22,7 @@ class NetSession {
   PlanResult run();
 
  private:
+  bool stand();
   bool go_on();
   void guess_and_solve();
   bool guess(FormationGuesser& guesser, int attempt);
@@ -50,6 +53,7 @@ class NetSession {
   std::vector<double> extra_;          // m, robots × (robots + bodies)
   std::vector<trajopt::Demand> demands_;
   std::vector<double> x_;
+  std::optional<std::pair<traj::TeamTrajectory, certify::Certificate>> stay_;  // certified, without reserve
   PlanResult result_;
 };
 

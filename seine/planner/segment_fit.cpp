@@ -221,9 +221,11 @@ trajopt::RobotTask fit(const TimedPath& timed, const world::Scenario& scenario, 
   task.model = scenario.model_of(robot);
   task.start = robot.start;
   task.start_speed = robot.start_speed;
-  task.goal = robot.goal;
+  // A short straight move may end beside the goal by as much as the certificate grants.
+  if (robot.goal) task.goal = timed.path.points.back().pose;
   const double t_a = task.model.limits.speed / task.model.limits.acceleration;
-  const TimedPath guess = without_tiny_stretches(timed, options.shortest_stretch * task.model.length());
+  const double tiny = options.shortest_stretch * std::min(task.model.length(), timed.path.length());
+  const TimedPath guess = without_tiny_stretches(timed, tiny);
   double end = 0.0;
   std::vector<geom::Pose2> poses;
   for (const Stretch& stretch : stretches_of(guess, task.model, options.shortest_wait * t_a)) {

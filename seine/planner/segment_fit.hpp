@@ -10,10 +10,12 @@ namespace seine::planner {
 
 /// How a guess is cut into polynomial pieces and how far its corridor looks.
 struct FitOptions {
-  double piece_length = 1.6;       ///< of the curve, car lengths
-  double piece_turn = 0.8;         ///< rad of heading change that deserve a piece of their own
-  double shortest_stretch = 0.05;  ///< car lengths: shorter stretches in one gear are left out
-  double piece_duration = 0.6;     ///< of the progress, in t_a = v_max / a_max
+  double piece_length = 1.6;  ///< of the curve, car lengths
+  double piece_turn = 0.8;    ///< rad of heading change that deserve a piece of their own
+  /// Car lengths, or lengths of a path that is shorter than a car: shorter stretches in one gear are left
+  /// out.
+  double shortest_stretch = 0.05;
+  double piece_duration = 0.6;    ///< of the progress, in t_a = v_max / a_max
   double shortest_wait = 0.6;     ///< a stop on the way at least this long, in t_a, becomes a rest of its own
   double corridor_reach = 1.0;    ///< car lengths
   double corridor_slack = 0.005;  ///< car lengths, on top of the certified margin

@@ -83,7 +83,10 @@ void Session::prepare() {
   tasks_.assign(count, {});
   workers_.run(static_cast<int>(count), [&](int k) {
     const auto i = static_cast<std::size_t>(k);
-    tasks_[i] = fit(guess_.robots[i], scenario_, scenario_.robots[i], map_);
+    if (guess_.robots[i].stands())
+      tasks_[i].model = scenario_.model_of(scenario_.robots[i]);
+    else
+      tasks_[i] = fit(guess_.robots[i], scenario_, scenario_.robots[i], map_);
   });
   settings_ = {};
   units_ = trajopt::units_of(tasks_);
@@ -106,6 +109,9 @@ void Session::prepare() {
   evaluations_.assign(count, 0);
   fault_rounds_.assign(count, 0);
   result_.plan.robots.assign(count, {});
+  for (std::size_t k = 0; k < count; ++k)
+    if (guess_.robots[k].stands())
+      result_.plan.robots[k] = traj::RobotTrajectory::standing(scenario_.robots[k].start);
   result_.times.corridor += watch.seconds();
 }
 
@@ -121,9 +127,9 @@ void Session::optimise(bool gently) {
   report("optimise", 0.0);
   std::vector<Group> alone;
   for (int k = 0; k < static_cast<int>(tasks_.size()); ++k) alone.push_back({k});
-  solve_groups(alone, gently ? Start::gentle_guess : Start::guess);
+  solve_groups(movers(std::move(alone)), gently ? Start::gentle_guess : Start::guess);
   report("optimise", 0.5);
-  std::vector<Group> close = close_groups(kCloseGap * units_.length);
+  std::vector<Group> close = movers(close_groups(kCloseGap * units_.length));
   std::erase_if(close, [](const Group& group) { return group.size() < 2; });
   solve_groups(close, Start::solution);
   result_.times.optimise += watch.seconds();
@@ -195,6 +201,14 @@ std::vector<Session::Group> Session::close_groups(double gap) const {
       if (come_within(bodies_[a], bodies_[b], bodies_[a].clearance + limit))
         groups.join(static_cast<int>(a), static_cast<int>(b));
   return groups.all();
+}
+
+// A car that stands has nothing to optimise: the others see it as a body.
+std::vector<Session::Group> Session::movers(std::vector<Group> groups) const {
+  for (Group& group : groups)
+    std::erase_if(group, [&](int k) { return guess_.robots[static_cast<std::size_t>(k)].stands(); });
+  std::erase_if(groups, [](const Group& group) { return group.empty(); });
+  return groups;
 }
 
 bool Session::certify() {
@@ -277,7 +291,7 @@ std::vector<Session::Group> Session::raise_demands(int round) {
   std::vector<Group> result = groups.all();
   std::erase_if(result,
                 [&](const Group& group) { return !at_fault[static_cast<std::size_t>(group.front())]; });
-  return result;
+  return movers(std::move(result));
 }
 
 void Session::report(const char* stage, double fraction) const {

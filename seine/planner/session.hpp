@@ -38,6 +38,7 @@ class Session {
   void solve(const Group& group, Start start, Workers& workers);
   trajopt::Task task_for(const Group& group) const;
   std::vector<Group> close_groups(double gap) const;
+  std::vector<Group> movers(std::vector<Group> groups) const;
   bool certify();
   void polish();
   std::vector<Group> raise_demands(int round);

@@ -9,8 +9,8 @@ namespace seine::search {
 
 /// s, how long a car takes for arcs one after the other, from rest to rest: each stretch in one gear with the
 /// quickest speed profile within the limits on speed, acceleration and lateral acceleration, and what turning
-/// the wheel at the arcs' joints adds where its rate is limited. An estimate to compare ways by: the optimiser
-/// rounds the joints off. Infinite where a gear is driven that the car does not have.
+/// the wheel at the arcs' joints adds where its rate is limited. An estimate to compare ways by: the
+/// optimiser rounds the joints off. Infinite where a gear is driven that the car does not have.
 double drive_time(std::span<const vehicle::Arc> arcs, const vehicle::Model& model);
 
 }  // namespace seine::search

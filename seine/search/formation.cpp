@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "seine/search/formation_steps.hpp"
 
 namespace seine::search {
 
@@ -44,6 +47,21 @@ void attachments_at(const world::Scenario& scenario, const Formation& formation,
     const Vec2 at = scenario.net->attachments[k].at;
     out[k] = frame.position() + formation.offsets[k] + Vec2{d.x * at.x - d.y * at.y, d.y * at.x + d.x * at.y};
   }
+}
+
+TeamLimits limits_of(const world::Scenario& scenario) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  TeamLimits all{kInfinity, kInfinity, kInfinity, kInfinity, kInfinity, 0.0};
+  for (const world::Robot& robot : scenario.robots) {
+    const vehicle::Model& model = scenario.model_of(robot);
+    all.speed = std::min(all.speed, model.limits.speed);
+    all.reverse_speed = std::min(all.reverse_speed, model.limits.reverse_speed);
+    all.acceleration = std::min(all.acceleration, model.limits.acceleration);
+    all.lateral = std::min(all.lateral, model.limits.lateral_acceleration);
+    all.curvature = std::min(all.curvature, model.max_curvature());
+    all.length = std::max(all.length, model.length());
+  }
+  return all;
 }
 
 }  // namespace seine::search

@@ -31,8 +31,9 @@ struct LowPiece {
 /// Somewhere the middle of the net has to be on its way, at a given time.
 struct Rendezvous {
   geom::Vec2 point;
-  double reach = 0.25;  ///< m: how near the middle must pass
-  double time = 0.0;    ///< s, common clock
+  double reach = 0.25;                                      ///< m: how near the middle must pass
+  double time = 0.0;                                        ///< s, common clock
+  double onward = std::numeric_limits<double>::infinity();  ///< m/s: no faster from there on
 };
 
 /// Where a formation's way may end.
@@ -69,6 +70,7 @@ struct FormationSettings {
   double cell = 0.5;
   int headings = 32;
   bool forward = true, backward = true;  ///< gears it may drive in
+  bool wait_at_start = true;             ///< until what can be met there has been met
   bool field = false;  ///< distances to go around what is tall, instead of as the crow flies
 };
 
@@ -112,6 +114,7 @@ class FormationSearch {
 /// When the frame is where: as fast as the limits of all cars allow, but not before its time at a rendezvous;
 /// it drives slower rather than waits.
 struct FormationTiming {
+  double wait = 0.0;  ///< s at the start, where something is met there; the profile begins after it
   std::vector<ProfileKnot> profile;
   double slack = std::numeric_limits<double>::infinity();  ///< s: by how much the fastest passage would be
                                                            ///< early at the tightest rendezvous; < 0: late

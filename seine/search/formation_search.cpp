@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "seine/search/formation_shot.hpp"
 #include "seine/search/formation_steps.hpp"
 #include "seine/vehicle/arc.hpp"
 
@@ -17,33 +18,34 @@ using vehicle::Arc;
 constexpr double kSlice = 0.01;  // of a car length at top speed: estimates this near are alike
 constexpr double kForwardTurns[] = {0.0, 0.22, -0.22, 0.5, -0.5, 0.88, -0.88};  // of κ_max
 constexpr double kBackwardTurns[] = {0.0, 0.5, -0.5, 0.88, -0.88};
-constexpr double kCurvedPrice = 0.02, kBackwardPrice = 0.4;  // shares of a step's time
-constexpr double kSteeringPrice = 0.05, kGearPrice = 1.0;    // of v / a, s
-constexpr double kShapePrice = 0.3;                          // of v / a, s
-constexpr double kAcross = 0.4;  // sine of the angle to its direction at which a narrow shape is of use
-constexpr double kLateralShare = 0.8;
+constexpr double kShapePrice = 0.3;   // of v / a, s
+constexpr double kAcross = 0.4;       // sine of the angle to its direction at which a narrow shape is of use
 constexpr double kLeastChange = 0.3;  // of the length that a change of shape is given
 constexpr double kSwerve = 2.0;       // a car's pace aside, of its pace ahead, while the shape changes
-constexpr double kStopShare = 0.6;    // of the acceleration limit, to stop after the last rendezvous
+// From where the last part of the way is looked for at once, and every how many expansions elsewhere. A goal
+// that steps hit anyway, less than this wide of a step, is left to them after a catch.
+constexpr double kShotReach = 4.0;
+constexpr int kShotEvery = 8;
+constexpr double kEasyGoal = 0.45;
+constexpr double kStopShare = 0.6;  // of the acceleration limit, to stop after the last rendezvous
 
-struct Limits {
-  double speed, reverse_speed, acceleration, lateral, curvature, length;
-};
+Pose2 pose_of(const Stand& stand) {
+  return {stand.at.x, stand.at.y, stand.heading};
+}
 
-// Of the whole team: everybody drives the same way.
-Limits limits_of(const world::Scenario& scenario) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  Limits all{kInfinity, kInfinity, kInfinity, kInfinity, kInfinity, 0.0};
-  for (const world::Robot& robot : scenario.robots) {
-    const vehicle::Model& model = scenario.model_of(robot);
-    all.speed = std::min(all.speed, model.limits.speed);
-    all.reverse_speed = std::min(all.reverse_speed, model.limits.reverse_speed);
-    all.acceleration = std::min(all.acceleration, model.limits.acceleration);
-    all.lateral = std::min(all.lateral, model.limits.lateral_acceleration);
-    all.curvature = std::min(all.curvature, model.max_curvature());
-    all.length = std::max(all.length, model.length());
+// Adds an arc to a way; returns where it ends.
+Pose2 append(Path& path, const Pose2& from, const Arc& arc) {
+  auto& points = path.points;
+  const double s = path.length();
+  if (points.empty() || points.back().gear != arc.gear())
+    points.push_back({s, from, arc.curvature, arc.gear()});
+  points.back().curvature = arc.curvature;
+  for (int k = 1; k <= kChecks; ++k) {
+    const double distance = arc.distance * k / kChecks;
+    points.push_back(
+        {s + std::abs(distance), vehicle::drive(from, arc.curvature, distance), arc.curvature, arc.gear()});
   }
-  return all;
+  return points.back().pose;
 }
 
 class Lattice {
@@ -57,7 +59,9 @@ class Lattice {
         step_(settings.step * limits_.length),
         per_cell_(1.0 / (settings.cell * limits_.length)),
         per_heading_(settings.headings / (2.0 * std::numbers::pi)),
+        to_stop_(problem.start_speed * problem.start_speed / (2.0 * kStopShare * limits_.acceleration)),
         open_(kSlice * limits_.length / limits_.speed) {
+    if (p_.goal) shots_.emplace(*p_.goal, limits_, ground_, s_.forward, s_.backward);
     const auto fan = [&](std::span<const double> turns, double distance) {
       for (const double turn : turns) moves_.push_back(move_of({turn * limits_.curvature, distance}));
     };
@@ -85,23 +89,30 @@ class Lattice {
   void expand(int index);
   bool drive_to(Node& node);
   bool at_goal(const Node& node);
+  bool worth_a_shot(const Node& here, int expansions);
+  void shoot(int index);
+  int meetings_at_start();
   void offer(int parent, int move, int shape);
   std::uint64_t bin(const Node& node) const;
   Node& node(int index) { return nodes_[static_cast<std::size_t>(index)]; }
   FormationPath path_to(int index);
+  void pass_meetings(const Pose2& pose, double s, int& phase, FormationPath& result, int most);
 
   const FormationProblem& p_;
   const FormationSettings& s_;
   FormationGround& ground_;
   const world::Scenario& scenario_;
-  Limits limits_;
+  TeamLimits limits_;
   double step_, per_cell_, per_heading_;
+  double to_stop_;  // m that a moving start needs
   std::vector<Move> moves_;
   std::vector<double> beyond_;  // per phase: m from the next place to the end of the way, at least
   Formation between_;           // room
   std::vector<Node> nodes_;
   Waiting open_;
   Bins bins_;
+  std::optional<FormationShots> shots_;
+  std::vector<FormationShot> found_;
 };
 
 void Lattice::legs_ahead() {
@@ -125,11 +136,7 @@ double Lattice::ahead(const Node& here) {
 }
 
 Move Lattice::move_of(const Arc& arc) const {
-  const double top = arc.distance > 0.0 ? limits_.speed : limits_.reverse_speed;
-  const double bend = std::abs(arc.curvature);
-  const double speed = bend > 0.0 ? std::min(top, std::sqrt(kLateralShare * limits_.lateral / bend)) : top;
-  const double dearer = (bend > 0.0 ? kCurvedPrice : 0.0) + (arc.distance < 0.0 ? kBackwardPrice : 0.0);
-  Move move{arc, std::abs(arc.distance) / speed * (1.0 + dearer), {}};
+  Move move{arc, limits_.time_of(arc), {}};
   for (int i = 0; i < kChecks; ++i)
     move.way[static_cast<std::size_t>(i)] =
         stand_at(vehicle::drive(Pose2{}, arc.curvature, arc.distance * (i + 1) / kChecks));
@@ -137,12 +144,9 @@ Move Lattice::move_of(const Arc& arc) const {
 }
 
 double Lattice::cost_of(const Node& parent, const Move& move, int shape_held) const {
-  const double unit = limits_.speed / limits_.acceleration;
-  double cost = parent.cost + move.time;
-  if (shape_held != parent.shape) cost += kShapePrice * unit;
-  if (parent.parent < 0) return cost;
-  if (parent.move->arc.gear() != move.arc.gear()) return cost + kGearPrice * unit;
-  return parent.move->arc.curvature == move.arc.curvature ? cost : cost + kSteeringPrice * unit;
+  const double shape = shape_held != parent.shape ? kShapePrice * limits_.speed / limits_.acceleration : 0.0;
+  const Arc* before = parent.parent < 0 ? nullptr : &parent.move->arc;
+  return parent.cost + move.time + shape + limits_.time_between(before, move.arc);
 }
 
 // A shape is complete at the end of the step on which a node takes it on, and the change begins before: not
@@ -216,7 +220,37 @@ void Lattice::offer_shapes(const Entry& step, Vec2 forward) {
   }
 }
 
+bool Lattice::worth_a_shot(const Node& here, int expansions) {
+  if (!shots_ || here.phase < meetings() || here.shot >= 0) return false;
+  if (here.parent < 0) return true;
+  if (!p_.goal->heading && p_.goal->radius > kEasyGoal * step_) return false;
+  const double left = geom::norm(middle(here.stand, here.shape) - p_.goal->center);
+  return left < kShotReach * limits_.length || expansions % kShotEvery == 0;
+}
+
+// Straight to the goal, if that is clear; it competes with everything else that waits.
+void Lattice::shoot(int index) {
+  const Node& from = node(index);
+  auto shot = shots_->from(from.stand, shape(from.shape), from.parent < 0 ? nullptr : &from.move->arc);
+  if (!shot) return;
+  double first_leg = 0.0;
+  for (const Arc& arc : shot->arcs) {
+    if (arc.gear() != shot->arcs.front().gear()) break;
+    first_leg += std::abs(arc.distance);
+  }
+  if (from.parent < 0 && (first_leg < to_stop_ || p_.start_speed * shot->arcs.front().gear() < 0.0)) return;
+  Node end = from;
+  end.parent = index, end.shot = static_cast<int>(found_.size());
+  end.cost = end.estimate = from.cost + shot->cost;
+  end.closed = false;
+  found_.push_back(std::move(*shot));
+  nodes_.push_back(end);
+  open_.push({end.estimate, static_cast<int>(nodes_.size()) - 1, -1, -1});
+}
+
 bool Lattice::at_goal(const Node& here) {
+  if (here.shot >= 0) return true;
+  if (here.s < to_stop_) return false;
   if (here.phase < meetings()) return false;
   if (!p_.goal) {
     const double stop = limits_.speed * limits_.speed / (2.0 * kStopShare * limits_.acceleration);
@@ -293,10 +327,19 @@ void Lattice::expand(int index) {
   }
 }
 
+// A team that stands where it is to meet something can wait there.
+int Lattice::meetings_at_start() {
+  FormationPath passed;
+  int phase = 0;
+  pass_meetings(p_.start, 0.0, phase, passed, meetings());
+  return phase;
+}
+
 std::optional<FormationPath> Lattice::run() {
   Node root{};
   root.stand = stand_at(p_.start);
   root.parent = -1;
+  if (s_.wait_at_start && p_.start_speed == 0.0) root.phase = meetings_at_start();
   root.estimate = s_.heuristic_weight * ahead(root);
   if (!std::isfinite(root.estimate)) return std::nullopt;
   nodes_.push_back(root);
@@ -317,13 +360,14 @@ std::optional<FormationPath> Lattice::run() {
     }
     Node& here = node(entry.node);
     if (here.closed) continue;
-    if (at_goal(here)) return path_to(entry.node);
+    if (here.parent >= 0 && at_goal(here)) return path_to(entry.node);
     here.closed = true;
     const double left = here.estimate - here.cost;
     if (left < nearest) nearest = left, nearest_at = expansions;
     if (expansions - nearest_at > s_.patience) break;
     if (++expansions % 64 == 0 && p_.deadline.expired()) break;
     expand(entry.node);
+    if (worth_a_shot(node(entry.node), expansions)) shoot(entry.node);
   }
   return std::nullopt;
 }
@@ -334,39 +378,36 @@ FormationPath Lattice::path_to(int index) {
   std::vector<int> way;
   for (int at = index; at >= 0; at = node(at).parent) way.push_back(at);
   std::reverse(way.begin(), way.end());
-  auto& points = result.path.points;
-  const Arc* first = way.size() > 1 ? &node(way[1]).move->arc : nullptr;
-  points.push_back(
-      {0.0, p_.start, first != nullptr ? first->curvature : 0.0, first != nullptr ? first->gear() : 1});
-  double s = 0.0;
-  int phase = 0;
   result.shapes.push_back({0.0, 0.0, 0});
+  int phase = 0;
+  pass_meetings(p_.start, 0.0, phase, result, node(way.front()).phase);
   for (std::size_t i = 1; i < way.size(); ++i) {
-    const Arc& arc = node(way[i]).move->arc;
-    const Stand& stand = node(way[i - 1]).stand;
-    const Pose2 from{stand.at.x, stand.at.y, stand.heading};
-    if (points.back().gear != arc.gear()) points.push_back({s, from, arc.curvature, arc.gear()});
-    points.back().curvature = arc.curvature;
-    const int held = node(way[i]).shape;
-    const bool changes = held != node(way[i - 1]).shape;
-    if (changes) {
-      const double complete = node(way[i]).held_since;
-      result.shapes.push_back({complete - node(way[i]).change, complete, held});
+    const Node& here = node(way[i]);
+    Pose2 from = pose_of(node(way[i - 1]).stand);
+    if (here.shot >= 0) {
+      for (const Arc& arc : found_[static_cast<std::size_t>(here.shot)].arcs)
+        from = append(result.path, from, arc);
+      continue;
     }
-    for (int k = 1; k <= kChecks; ++k) {
-      const double distance = arc.distance * k / kChecks;
-      const Pose2 pose = vehicle::drive(from, arc.curvature, distance);
-      points.push_back({s + std::abs(distance), pose, arc.curvature, arc.gear()});
-      while (phase < meetings() && held == 0 && !changes &&
-             geom::norm(middle(stand_at(pose), 0) - p_.meetings[static_cast<std::size_t>(phase)].point) <=
-                 p_.meetings[static_cast<std::size_t>(phase)].reach) {
-        result.meeting_s.push_back(s + std::abs(distance));
-        ++phase;
-      }
-    }
-    s += std::abs(arc.distance);
+    const bool changes = here.shape != node(way[i - 1]).shape;
+    if (changes) result.shapes.push_back({here.held_since - here.change, here.held_since, here.shape});
+    const std::size_t first = result.path.points.size();
+    append(result.path, from, here.move->arc);
+    if (here.shape != 0 || changes) continue;
+    for (std::size_t k = first; k < result.path.points.size(); ++k)
+      pass_meetings(result.path.points[k].pose, result.path.points[k].s, phase, result, meetings());
   }
   return result;
+}
+
+// Notes which rendezvous are passed at a pose.
+void Lattice::pass_meetings(const Pose2& pose, double s, int& phase, FormationPath& result, int most) {
+  const Vec2 at = middle(stand_at(pose), 0);
+  for (; phase < most; ++phase) {
+    const Rendezvous& meeting = p_.meetings[static_cast<std::size_t>(phase)];
+    if (geom::norm(at - meeting.point) > meeting.reach) break;
+    result.meeting_s.push_back(s);
+  }
 }
 
 }  // namespace

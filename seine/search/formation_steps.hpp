@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -10,6 +11,34 @@
 
 // What the search for a formation's way is made of; internal to formation_search.cpp.
 namespace seine::search {
+
+// Prices of a way: shares of a step's time, and of v / a.
+inline constexpr double kCurvedPrice = 0.02, kBackwardPrice = 0.4;
+inline constexpr double kSteeringPrice = 0.05, kGearPrice = 1.0;
+inline constexpr double kLateralShare = 0.8;
+
+/// Of the whole team: everybody drives the same way.
+struct TeamLimits {
+  double speed, reverse_speed, acceleration, lateral, curvature;
+  double length;  ///< m, of the longest car
+
+  /// s, at least, with what makes drivers avoid it.
+  double time_of(const vehicle::Arc& arc) const {
+    const double top = arc.distance > 0.0 ? speed : reverse_speed;
+    const double bend = std::abs(arc.curvature);
+    const double fastest = bend > 0.0 ? std::min(top, std::sqrt(kLateralShare * lateral / bend)) : top;
+    const double dearer = (bend > 0.0 ? kCurvedPrice : 0.0) + (arc.distance < 0.0 ? kBackwardPrice : 0.0);
+    return std::abs(arc.distance) / fastest * (1.0 + dearer);
+  }
+  /// s for going on with `next` after `before`; nothing at the start.
+  double time_between(const vehicle::Arc* before, const vehicle::Arc& next) const {
+    if (before == nullptr) return 0.0;
+    const double unit = speed / acceleration;
+    if (before->gear() != next.gear()) return kGearPrice * unit;
+    return before->curvature == next.curvature ? 0.0 : kSteeringPrice * unit;
+  }
+};
+TeamLimits limits_of(const world::Scenario& scenario);
 
 inline constexpr int kChecks = 3;  ///< poses looked at in a step
 
@@ -32,6 +61,7 @@ struct Node {
   int parent;         ///< −1 at the root
   int phase;          ///< rendezvous passed
   int shape;          ///< held on the way here
+  int shot = -1;      ///< the last part of the way, which ends in the goal; −1: a step
   bool closed = false;
 };
 

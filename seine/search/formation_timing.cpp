@@ -83,13 +83,20 @@ FormationTiming time_formation(const FormationPath& way, const FormationProblem&
   const Caps caps = caps_of(way, *problem.scenario);
   const auto& points = way.path.points;
   std::vector<double> capped = caps.speed;
+  for (std::size_t m = 0; m < way.meeting_s.size(); ++m)
+    for (std::size_t i = 0; i < capped.size(); ++i)
+      if (points[i].s >= way.meeting_s[m]) capped[i] = std::min(capped[i], problem.meetings[m].onward);
   const double top = *std::max_element(caps.speed.begin(), caps.speed.end());
   const double start = std::min(std::abs(problem.start_speed), top);
   FormationTiming timing;
   timing.profile = profile_of(speeds_under(capped, way.path, caps.acceleration, start), way.path);
   double from = 0.0;
   for (std::size_t m = 0; m < way.meeting_s.size(); ++m) {
-    const double s = way.meeting_s[m], wanted = problem.meetings[m].time;
+    const double s = way.meeting_s[m], wanted = problem.meetings[m].time - timing.wait;
+    if (s <= 0.0) {
+      timing.wait = std::max(timing.wait, problem.meetings[m].time);
+      continue;
+    }
     timing.slack = std::min(timing.slack, wanted - time_at(timing.profile, s));
     // The slowest cap before the rendezvous that is not late.
     double low = kLeastSpeed * top, high = top;

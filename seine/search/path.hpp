@@ -32,11 +32,12 @@ struct ProfileKnot {
 };
 
 /// A path and when the car is where on it: starts at t = 0, ends at rest at the path's end; v = 0 at every
-/// gear change.
+/// gear change. A car that stands the whole time has a path of one point.
 struct TimedPath {
   Path path;
   std::vector<ProfileKnot> profile;
   double arrival() const { return profile.empty() ? 0.0 : profile.back().t; }
+  bool stands() const { return path.points.size() <= 1; }
   /// Driven length and speed at time t; before 0 and after arrival the end values.
   ProfileKnot at(double t) const;
 };

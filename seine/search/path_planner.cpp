@@ -9,9 +9,11 @@
 
 #include "seine/geom/convex.hpp"
 #include "seine/search/cost_to_go_cache.hpp"
+#include "seine/search/drive_time.hpp"
 #include "seine/search/gates.hpp"
 #include "seine/search/hybrid_astar.hpp"
 #include "seine/search/quickest.hpp"
+#include "seine/search/short_move.hpp"
 
 namespace seine::search {
 namespace {
@@ -21,6 +23,7 @@ constexpr double kSlack = 0.025;       // car lengths, on top of the clearance w
 constexpr double kEaseRadius = 1.5;    // car lengths around a tight start or goal in which it has less slack
 constexpr double kShortStretch = 0.3;  // car lengths: stretches in one gear below this are avoided
 constexpr double kTouch = 1e-9;        // m: rounding of a start that stands exactly at its clearance
+constexpr double kQuicker = 0.9;       // a short move by words must save a tenth of the time
 constexpr double kDiscCell =
     0.35;  // of the car's width: the side of a heuristic cell, small enough that walls stay tight
 
@@ -328,7 +331,13 @@ std::optional<Route> PathPlanner::Impl::ladder(const geom::Pose2& start, const g
 std::optional<Route> PathPlanner::Impl::plan(const geom::Pose2& start, const geom::Pose2& goal,
                                              const PathOptions& options) {
   int left = options.max_expansions;
-  return ladder(start, goal, options, left, true);
+  std::optional<Route> route = ladder(start, goal, options, left, true);
+  // The ladder counts metres and likes long stretches; for a goal close by seconds decide.
+  if (!options.short_moves || !options.bumps.empty()) return route;
+  std::optional<Route> move = short_move(start, goal, checker(start, goal, options));
+  if (move && (!route || drive_time(move->arcs, model) < kQuicker * drive_time(route->arcs, model)))
+    return move;
+  return route;
 }
 
 PathPlanner::PathPlanner(const world::StaticMap& map, const vehicle::Model& model)

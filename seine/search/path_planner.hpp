@@ -38,11 +38,14 @@ struct PathOptions {
   /// Whether several ways are compared by the time they take (a millisecond or so); else the first is good
   /// enough.
   bool quickest = false;
+  /// Whether a goal close by may be reached in a few short moves: not by a car that is already moving.
+  bool short_moves = true;
   Deadline deadline;
 };
 
-/// Paths for one kind of car on one map: Hybrid A* with Reeds-Shepp shots, whole footprint, forward and, where
-/// the car's reverse speed is not 0, reverse. Heuristics are cached per goal region. `plan` may be called from many threads at once.
+/// Paths for one kind of car on one map: Hybrid A* with Reeds-Shepp shots, whole footprint, forward and,
+/// where the car's reverse speed is not 0, reverse. Heuristics are cached per goal region. `plan` may be
+/// called from many threads at once.
 class PathPlanner {
  public:
   PathPlanner(const world::StaticMap& map, const vehicle::Model& model);
@@ -50,7 +53,8 @@ class PathPlanner {
   PathPlanner(PathPlanner&&) noexcept;
 
   /// The path from start to goal, or nothing when none was found within the limits. Deterministic. Curvatures
-  /// are at most κ_max, as a rule at most κ_max / 1.1. A start that is the goal gives a path of one point.
+  /// are at most κ_max, as a rule at most κ_max / 1.1. A start that is the goal gives a path of one point. A
+  /// goal straight ahead or behind and close by may be missed by as little as the certificate grants.
   std::optional<Path> plan(const geom::Pose2& start, const geom::Pose2& goal,
                            const PathOptions& options) const;
 

@@ -36,8 +36,8 @@ std::optional<Vec2> crossing_point(const world::Robot& a, const world::Robot& b)
   const Vec2 u = a.goal->position() - p, v = b.goal->position() - q;
   const double det = cross(u, v);
   // Ways that meet head on meet half way, whatever their rounding says.
-  if (std::abs(det) < 1e-3 * norm(u) * norm(v)) {
-    if (dot(u, v) >= 0.0) return std::nullopt;
+  if (!(std::abs(det) > 1e-3 * norm(u) * norm(v))) {
+    if (dot(u, v) >= 0.0) return std::nullopt;  // also where one of them stands
     return 0.5 * (p + q);
   }
   const double s = cross(q - p, v) / det, t = cross(q - p, u) / det;
@@ -50,6 +50,11 @@ double distance_to_way(const world::Robot& robot, Vec2 point) {
   const double length2 = std::max(squared_norm(u), 1e-12);
   const double s = std::clamp(dot(point - p, u) / length2, 0.0, 1.0);
   return norm(p + s * u - point);
+}
+
+// A car that stands or only shifts a little has no use for a ring.
+bool passes(const world::Scenario& scenario, const world::Robot& robot) {
+  return norm(robot.goal->position() - robot.start.position()) > scenario.model_of(robot).length();
 }
 
 double turn_left(double from, double to) {
@@ -120,7 +125,8 @@ std::optional<Crossing> find_crossing(const world::Scenario& scenario) {
   Crossing crossing{{xs[xs.size() / 2], ys[ys.size() / 2]}, {}};
   const double through = kThrough * longest_car(scenario);
   for (std::size_t i = 0; i < count; ++i)
-    if (distance_to_way(scenario.robots[i], crossing.center) <= through)
+    if (passes(scenario, scenario.robots[i]) &&
+        distance_to_way(scenario.robots[i], crossing.center) <= through)
       crossing.robots.push_back(static_cast<int>(i));
   // A crossing where only a minority meets is better left to giving way and side steps.
   if (crossing.robots.size() < kFewest || 2 * crossing.robots.size() < count) return std::nullopt;

@@ -52,12 +52,13 @@ std::vector<Traffic> SpaceTimePlanner::with_extra(const geom::Pose2& start, cons
 }
 
 std::optional<Path> SpaceTimePlanner::plan(const geom::Pose2& start, const geom::Pose2& goal,
-                                           std::span<const Traffic> traffic, const SpaceTimeOptions& options) {
+                                           std::span<const Traffic> traffic,
+                                           const SpaceTimeOptions& options) {
   const std::vector<Traffic> wished = with_extra(start, goal, traffic, options.extra);
   const DiscCover::Disc& disc = cover_.widest();
   const geom::Vec2 reference{disc.x, cover_.axis};
-  const CostToGoCache::Loan to_go(cache_, {.distances = &distances_, .radius = disc.inner + options.clearance},
-                                  goal * reference);
+  const CostToGoCache::Loan to_go(
+      cache_, {.distances = &distances_, .radius = disc.inner + options.clearance}, goal * reference);
   FootprintChecker free(map_, &distances_, model_, options.clearance);
   const double room_start = free.exact_room(start), room_goal = free.exact_room(goal);
   for (const Rung& rung : kLadder) {

@@ -13,9 +13,9 @@ namespace seine::search {
 
 struct SpaceTimeOptions {
   double clearance = 0.05;  ///< m, certified margin to static obstacles
-  double extra = 0.0;       ///< m, wished for on top of the traffic's clearance, where the ends leave that much
-  double pace = 0.7;        ///< of the grid's speeds: what the car is assumed to drive at
-  double effort = 1.0;      ///< of the expansions that are usually allowed
+  double extra = 0.0;   ///< m, wished for on top of the traffic's clearance, where the ends leave that much
+  double pace = 0.7;    ///< of the grid's speeds: what the car is assumed to drive at
+  double effort = 1.0;  ///< of the expansions that are usually allowed
   Deadline deadline;
 };
 
@@ -26,8 +26,8 @@ class SpaceTimePlanner {
   SpaceTimePlanner(const world::StaticMap& map, const vehicle::Model& model, const SpeedGrid& grid);
 
   /// A path that can be driven in time among the traffic, or nothing when none was found.
-  std::optional<Path> plan(const geom::Pose2& start, const geom::Pose2& goal, std::span<const Traffic> traffic,
-                           const SpaceTimeOptions& options);
+  std::optional<Path> plan(const geom::Pose2& start, const geom::Pose2& goal,
+                           std::span<const Traffic> traffic, const SpaceTimeOptions& options);
   /// Expansions of all searches so far.
   int expansions() const { return expansions_; }
 

@@ -16,14 +16,14 @@ namespace {
 using vehicle::Arc;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr std::size_t kWords = 3;      // Reeds-Shepp words tried per shot
-constexpr double kSample = 0.1;        // car lengths between the places at which a move is tested
-constexpr double kReverse = 0.3;       // what a second backwards costs more than one forwards
-constexpr double kGearChange = 0.5;    // turning radii at full pace, beside stopping and starting
-constexpr double kSteering = 0.05;     // turning radii at full pace, from straight to the tightest turn
-constexpr int kEagerShots = 50;        // nodes that shoot at the goal each; later ones only now and then
+constexpr std::size_t kWords = 3;    // Reeds-Shepp words tried per shot
+constexpr double kSample = 0.1;      // car lengths between the places at which a move is tested
+constexpr double kReverse = 0.3;     // what a second backwards costs more than one forwards
+constexpr double kGearChange = 0.5;  // turning radii at full pace, beside stopping and starting
+constexpr double kSteering = 0.05;   // turning radii at full pace, from straight to the tightest turn
+constexpr int kEagerShots = 50;      // nodes that shoot at the goal each; later ones only now and then
 constexpr int kShotEvery = 4;
-constexpr double kNear = 4.0;          // turning radii to the goal: from here every node shoots
+constexpr double kNear = 4.0;  // turning radii to the goal: from here every node shoots
 
 struct Node {
   geom::Pose2 pose;
@@ -114,14 +114,16 @@ double SpaceTime::extra(const Arc& arc, const Node& before) const {
 
 std::uint64_t SpaceTime::bin(const Node& n) const {
   const auto index = [&](double value) {
-    return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(value / s_.cell + 0.5)) + (1 << 19)) &
+    return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(value / s_.cell + 0.5)) +
+                                      (1 << 19)) &
            0xfffffU;
   };
   const double angle = 2.0 * std::numbers::pi / s_.headings;
   const auto heading = static_cast<std::int64_t>(std::floor(n.pose.heading / angle + 0.5));
   const auto turn = static_cast<std::uint64_t>((heading % s_.headings + s_.headings) % s_.headings);
   return index(n.pose.x - p_.start.x) << 44 | index(n.pose.y - p_.start.y) << 24 | turn << 14 |
-         static_cast<std::uint64_t>(n.arc.gear() < 0) << 13 | static_cast<std::uint64_t>(std::min(n.span, 8191));
+         static_cast<std::uint64_t>(n.arc.gear() < 0) << 13 |
+         static_cast<std::uint64_t>(std::min(n.span, 8191));
 }
 
 void SpaceTime::push(int index) {
@@ -161,7 +163,8 @@ void SpaceTime::add(int index, const Arc& move) {
 double SpaceTime::forbid(const geom::Pose2& from, std::span<const Arc> arcs) {
   forbidden_.clear();
   const auto keep_off = [&](const geom::Pose2& pose, const Slack& slack, double begin, double end) {
-    for (const Span& busy : ground_.busy(pose, slack)) forbidden_.push_back({busy.begin - end, busy.end - begin});
+    for (const Span& busy : ground_.busy(pose, slack))
+      forbidden_.push_back({busy.begin - end, busy.end - begin});
   };
   geom::Pose2 pose = from;
   double time = 0.0;
@@ -263,8 +266,7 @@ bool SpaceTime::try_word(int index, const vehicle::ReedsSheppPath& word) {
   if (!arcs.empty() && sweep(*p_.checker, from.pose, from.room, arcs) < 0.0) return false;
   const double duration = forbid(from.pose, arcs);
   const bool root = from.parent < 0, rolls = !root && !arcs.empty() && arcs.front().gear() == from.arc.gear();
-  const double starting =
-      from.time + (arcs.empty() ? 0.0 : lag(arcs.front())) + (root ? 0.0 : lag(from.arc));
+  const double starting = from.time + (arcs.empty() ? 0.0 : lag(arcs.front())) + (root ? 0.0 : lag(from.arc));
   double passing = rolls ? from.time : starting;
   if (passing + duration < goal_free_) passing = std::max(goal_free_ - duration, starting);
   const double begin = depart(passing, starting, from.leave_by);
@@ -283,7 +285,8 @@ void SpaceTime::shoot(int index) {
   std::array<vehicle::ReedsSheppPath, kWords> words;
   const double infinite = 1e3;  // a car without a reverse gear
   const vehicle::DrivingCosts costs{
-      .reverse = p_.grid->reverse_speed > 0.0 ? (1.0 + kReverse) * p_.grid->speed / p_.grid->reverse_speed : infinite,
+      .reverse = p_.grid->reverse_speed > 0.0 ? (1.0 + kReverse) * p_.grid->speed / p_.grid->reverse_speed
+                                              : infinite,
       .gear_change = (kGearChange * p_.radius) + top_ * top_ / p_.grid->acceleration};
   const geom::Pose2 from = node(index).pose;
   const int found = vehicle::reeds_shepp(from, p_.goal, p_.radius, costs, words);

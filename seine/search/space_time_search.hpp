@@ -43,7 +43,7 @@ struct SpaceTimeProblem {
 
 struct SpaceTimeResult {
   std::optional<Route> route;
-  double arrival = 0.0;       ///< s, by the search's own coarse timing, waits included
+  double arrival = 0.0;  ///< s, by the search's own coarse timing, waits included
   int expansions = 0;
   bool goal_blocked = false;  ///< something stands on the goal for good
 };
@@ -52,8 +52,8 @@ struct SpaceTimeResult {
 /// its place for something that passes and come back. Time is not cut into steps: as in safe interval path
 /// planning [Phillips11] a node is a pose together with one of the spans in which nothing comes near it, kept
 /// at its earliest arrival; how long to wait before a move follows from when the ground of the move is free.
-/// The car drives at a share of its speed and loses v/(2a) wherever it starts or stops. Its route is meant for
-/// an exact velocity plan. Deterministic; ties go to the node made first.
+/// The car drives at a share of its speed and loses v/(2a) wherever it starts or stops. Its route is meant
+/// for an exact velocity plan. Deterministic; ties go to the node made first.
 SpaceTimeResult search_space_time(const SpaceTimeProblem& problem, const SpaceTimeSettings& settings);
 
 }  // namespace seine::search

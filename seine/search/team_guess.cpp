@@ -55,8 +55,8 @@ class Guess {
   const world::Scenario& scenario_;
   const world::StaticMap& map_;
   const GuessOptions& options_;
-  std::vector<PathPlanner> planners_;  // one for each model
-  std::deque<SideStep> side_steps_;    // likewise
+  std::vector<PathPlanner> planners_;                             // one for each model
+  std::deque<SideStep> side_steps_;                               // likewise
   mutable std::vector<std::unique_ptr<SpaceTimePlanner>> among_;  // likewise, made when first needed
   TeamGuess guess_;
 };
@@ -104,10 +104,14 @@ std::optional<Path> Guess::find_path_among(int robot, std::span<const Traffic> t
 // straight on.
 std::optional<Path> Guess::find_path_from(const world::Robot& who, const geom::Pose2& start,
                                           const PathOptions& options) const {
+  if (who.rests_at_goal()) return Path{{{0.0, start, 0.0, 1}}};
   const PathPlanner& planner = planners_[idx(who.model)];
-  std::optional<Path> path = planner.plan(start, *who.goal, options);
+  PathOptions rolling = options;
+  rolling.short_moves = who.start_speed == 0.0;
+  std::optional<Path> path = planner.plan(start, *who.goal, rolling);
   const int gear = who.start_speed < 0.0 ? -1 : 1;
-  if (who.start_speed == 0.0 || (path && path->points.front().gear == gear)) return path;
+  const bool goes_on = path && path->length() > 0.0 && path->points.front().gear == gear;
+  if (who.start_speed == 0.0 || goes_on) return path;
 
   const vehicle::Model& model = scenario_.model_of(who);
   constexpr double kBraking = 0.6;  // of the acceleration: room for the profile's steps and for the spline

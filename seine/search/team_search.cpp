@@ -206,7 +206,8 @@ TeamSearch::Placed TeamSearch::around_the_parked(int robot, const TeamState& sta
   return coordinator_.place_on(robot, way, state, workspace_);
 }
 
-// A path that a space-time search finds among the others, where the ways at hand lead nowhere or make it late.
+// A path that a space-time search finds among the others, where the ways at hand lead nowhere or make it
+// late.
 TeamSearch::Placed TeamSearch::among(int robot, const TeamState& state, Placed best) {
   if (!sources_.among || (best && !late(robot, best->arrival))) return best;
   const std::vector<Traffic> traffic = coordinator_.traffic(robot, state);

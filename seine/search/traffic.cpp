@@ -86,7 +86,9 @@ class ObstacleWalker {
   }
 
   int rest() const { return rest_; }  // the tick from which on it stands
-  geom::Pose2 middle(int q, int span) const { return search::pose_at(motion_, (q + 0.5 * (span - 1)) * tick_); }
+  geom::Pose2 middle(int q, int span) const {
+    return search::pose_at(motion_, (q + 0.5 * (span - 1)) * tick_);
+  }
   // Of any point of the body from its place at the middle of the ticks [q, q + span), m.
   double away(int q, int span) const {
     const double begin = (q - 0.5) * tick_, end = (q + span - 0.5) * tick_;
@@ -128,7 +130,8 @@ class ObstacleWalker {
       const int count = static_cast<int>(std::clamp(std::ceil(0.5 * way / limit), 1.0, kMost));
       for (int k = 0; k < count; ++k) {
         const double f = (k + 0.5) / count;
-        hops.push_back({{a.x + f * (b.x - a.x), a.y + f * (b.y - a.y), a.heading + f * turn}, 0.5 * way / count});
+        hops.push_back(
+            {{a.x + f * (b.x - a.x), a.y + f * (b.y - a.y), a.heading + f * turn}, 0.5 * way / count});
       }
     }
     return hops;
@@ -228,8 +231,9 @@ MovingBody::MovingBody(const geom::Convex& shape, std::span<const world::Waypoin
 }
 
 geom::Pose2 pose_at(std::span<const world::Waypoint> motion, double t) {
-  const auto next = std::upper_bound(motion.begin(), motion.end(), t,
-                                     [](double at, const world::Waypoint& waypoint) { return at < waypoint.t; });
+  const auto next =
+      std::upper_bound(motion.begin(), motion.end(), t,
+                       [](double at, const world::Waypoint& waypoint) { return at < waypoint.t; });
   if (next == motion.begin()) return motion.front().pose;
   const geom::Pose2& a = std::prev(next)->pose;
   if (next == motion.end()) return a;

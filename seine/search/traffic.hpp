@@ -67,8 +67,8 @@ struct Traffic {
 
 /// Whether a convex polygon keeps the clearance to the body during one of its events. @param turned a box
 /// around the polygon; @param is_box the polygon is that box
-inline bool apart(const OrientedBox& turned, std::span<const geom::Vec2> polygon, bool is_box, const MovingBody& body,
-           int event, double clearance) {
+inline bool apart(const OrientedBox& turned, std::span<const geom::Vec2> polygon, bool is_box,
+                  const MovingBody& body, int event, double clearance) {
   // Starts that touch, or stand exactly at the margin, are legal: as much is forgiven to rounding, m.
   constexpr double kTouch = 1e-6;
   const OrientedBox& other = body.events()[static_cast<std::size_t>(event)].turned;

@@ -8,6 +8,7 @@ namespace {
 
 using geom::Vec3;
 
+constexpr double kPartingSpeed = 1.0;  // m/s
 constexpr double kRollInertia = 0.4;  // of a solid ball: I = 0.4 m r²
 
 using Face = std::array<int, 3>;
@@ -118,13 +119,16 @@ void press_apart(Cloth& cloth, Body& body, const Surface& surface, bool backward
   }
 }
 
-void press_apart(Body& a, Body& b) {
+void press_apart(Body& a, Body& b, double h) {
   const Vec3 apart = b.ball.position - a.ball.position;
   const double distance = norm(apart), reach = a.ball.radius + b.ball.radius;
-  if (distance >= reach || distance == 0.0) return;
-  const double share = (reach - distance) / (distance * (a.ball.mass + b.ball.mass));
-  a.ball.position += (-share * b.ball.mass) * apart;
-  b.ball.position += (share * a.ball.mass) * apart;
+  if (distance >= reach) return;
+  // Objects that were told to be in one place part gently; those that collide, no faster than they came.
+  const double most = std::max(kPartingSpeed * h, norm(b.before - a.before) - distance);
+  const Vec3 normal = distance > 0.0 ? (1.0 / distance) * apart : Vec3{1.0, 0.0, 0.0};
+  const double share = std::min(reach - distance, most) / (a.ball.mass + b.ball.mass);
+  a.ball.position += (-share * b.ball.mass) * normal;
+  b.ball.position += (share * a.ball.mass) * normal;
 }
 
 void keep_above_ground(Body& body) {

@@ -36,8 +36,8 @@ struct Surface {
 /// Presses an object and the net apart where they overlap [Macklin16]. Faces are looked through in their
 /// order, or from the last to the first.
 void press_apart(Cloth& cloth, Body& body, const Surface& surface, bool backwards);
-/// The same for two objects; frictionless.
-void press_apart(Body& a, Body& b);
+/// The same for two objects; frictionless. @param h s, of the step
+void press_apart(Body& a, Body& b, double h);
 /// Keeps an object above the ground, where it does not slide.
 void keep_above_ground(Body& body);
 

@@ -24,6 +24,28 @@ Vec3 acceleration(const Ball& ball, Vec3 velocity) {
   return Vec3{0.0, 0.0, -net::kGravity} + (-ball.drag * norm(velocity)) * velocity;
 }
 
+// Strong drag is integrated in parts of the step.
+constexpr double kStiffness = 0.1;  // drag · speed · part, at most …
+constexpr double kMostParts = 100;  // … but no more parts than this
+
+// One step of free flight. By the acceleration in the middle of a part it is exact but for its drag's third
+// order. Leaves in `velocity` what `finish` adds to the mean velocity of the step.
+void fly(Ball& ball, double h) {
+  const double stiff = std::min(ball.drag * norm(ball.velocity) * h / kStiffness, kMostParts);
+  const int parts = std::max(1, static_cast<int>(std::ceil(stiff)));
+  const double part = h / parts;
+  const Vec3 start = ball.position;
+  for (int i = 0; i < parts; ++i) {
+    const Vec3 a = acceleration(ball, ball.velocity + (0.5 * part) * acceleration(ball, ball.velocity));
+    ball.position += part * ball.velocity + (0.5 * part * part) * a;
+    if (parts == 1)
+      ball.velocity = (0.5 * h) * a;
+    else
+      ball.velocity += part * a;
+  }
+  if (parts > 1) ball.velocity = ball.velocity - (1.0 / h) * (ball.position - start);
+}
+
 }  // namespace
 
 CordNet::CordNet(const net::Net& net, std::span<const Vec3> corners, const NetMaterial& material)
@@ -72,7 +94,7 @@ void CordNet::step(std::span<const Vec3> corners, double part, double h) {
   for (std::size_t k = 0; k < mesh_.corners; ++k)
     cloth_.position[k] = start_[k] + part * (corners[k] - start_[k]);
   tighten(h);
-  press();
+  press(h);
   finish(h);
   backwards_ = !backwards_;
 }
@@ -83,12 +105,9 @@ void CordNet::predict(double h) {
   for (std::size_t v = mesh_.corners; v < cloth_.position.size(); ++v)
     cloth_.position[v] = cloth_.before[v] + h * cloth_.velocity[v] + fall;
   for (Body& body : bodies_) {
-    // By the acceleration in the middle of the step a free flight is exact but for its drag's third order.
     Ball& ball = body.ball;
-    const Vec3 a = acceleration(ball, ball.velocity + (0.5 * h) * acceleration(ball, ball.velocity));
     body.before = ball.position;
-    ball.position += h * ball.velocity + (0.5 * h * h) * a;
-    ball.velocity = (0.5 * h) * a;  // what `finish` adds to the mean velocity of the step
+    fly(ball, h);
     body.turn = h * ball.spin;
     body.touching = false;
   }
@@ -135,13 +154,13 @@ void CordNet::tighten_geodesics(std::size_t corner, double h) {
   for (std::size_t i = 0; i < count; ++i) tighten(corner, taut_[i], rest[taut_[i]], h);
 }
 
-void CordNet::press() {
+void CordNet::press(double h) {
   const Surface surface{mesh_.faces, kStretchedFace * mesh_.face_reach, material_.friction};
   double highest = 0.0;
   for (std::size_t k = 0; k < mesh_.corners; ++k) highest = std::max(highest, cloth_.position[k].z);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     Body& body = bodies_[i];
-    for (std::size_t j = 0; j < i; ++j) press_apart(bodies_[j], body);
+    for (std::size_t j = 0; j < i; ++j) press_apart(bodies_[j], body, h);
     if (body.ball.position.z - body.ball.radius < highest + 0.2)
       press_apart(cloth_, body, surface, backwards_);
     keep_above_ground(body);

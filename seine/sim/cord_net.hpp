@@ -35,7 +35,7 @@ class CordNet final : public NetPhysics {
   void tighten(double h);
   void tighten(std::size_t a, std::size_t b, double rest, double h);
   void tighten_geodesics(std::size_t corner, double h);
-  void press();
+  void press(double h);
   void finish(double h);
 
   NetMesh mesh_;

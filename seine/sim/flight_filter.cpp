@@ -13,6 +13,8 @@ using geom::Vec3;
 
 constexpr double kStep = 0.01;         // s, longest step of a prediction
 constexpr double kLongestFall = 10.0;  // s looked ahead
+constexpr double kStiffness = 0.25;    // drag · speed · step, at most, of a short step …
+constexpr double kMostParts = 200.0;   // … of which a step has no more than this
 constexpr double kWalk = 1e-6;  // m²/s³ and m²/s⁵: velocity and push may drift, so the filter stays awake
 
 // Where the parts of the state begin.
@@ -30,11 +32,19 @@ Vec3 acceleration(Vec3 velocity, double drag, Vec3 push) {
   return push + Vec3{0.0, 0.0, -net::kGravity} + (-drag * norm(velocity)) * velocity;
 }
 
-// One step, with the acceleration of its middle.
-Motion step(const Motion& from, double drag, Vec3 push, double h) {
+// One short step, with the acceleration of its middle.
+Motion short_step(const Motion& from, double drag, Vec3 push, double h) {
   const Vec3 middle = from.velocity + (0.5 * h) * acceleration(from.velocity, drag, push);
   const Vec3 a = acceleration(middle, drag, push);
   return {from.position + h * from.velocity + (0.5 * h * h) * a, from.velocity + h * a};
+}
+
+// A step in as many short ones as strong drag needs.
+Motion step(Motion motion, double drag, Vec3 push, double h) {
+  const double stiff = std::min(drag * norm(motion.velocity) * h / kStiffness, kMostParts);
+  const int parts = std::max(1, static_cast<int>(std::ceil(stiff)));
+  for (int i = 0; i < parts; ++i) motion = short_step(motion, drag, push, h / parts);
+  return motion;
 }
 
 int steps_of(double duration) {

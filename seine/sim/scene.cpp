@@ -12,7 +12,9 @@ namespace {
 using geom::Vec2;
 using geom::Vec3;
 
-constexpr double kSettling = 2.0;  // s for a payload to hang still before the scene begins
+constexpr double kSettling = 2.0;  // s for a payload to hang still before the scene begins …
+constexpr int kMoreSettlings = 3;  // … and as often again as it then still swings faster than this
+constexpr double kStill = 0.05;    // m/s
 
 std::string sentence(const char* what, std::size_t index, std::size_t count, Fate fate) {
   const std::string who = count > 1 ? std::string(what) + " " + std::to_string(index + 1) : std::string(what);
@@ -53,8 +55,12 @@ Outcome outcome_of(const CatchWatch* watch, bool arrived) {
 Scene::Scene(const world::Scenario& scenario, std::span<const Vec3> corners, const Noise& noise, Rng& seeds)
     : physics_(
           std::make_unique<CordNet>(*scenario.net, corners, material_of_rebound(scenario.net->rebound))) {
-  for (const net::Target& target : scenario.targets)
+  for (const net::Target& target : scenario.targets) {
     thrown_.emplace_back(target, scenario.net->rim(), noise, seeds.next());
+    // Asked for at every tick: a flight with much drag takes long to integrate.
+    const auto crossing = net::Flight(thrown_.back().truth()).crossing(scenario.net->rim());
+    if (crossing) last_crossing_ = std::max(last_crossing_, crossing->state.time);
+  }
   if (scenario.payload && thrown_.empty()) put_payload(scenario, corners);
   known_.assign(thrown_.size(), Fate::flying);
 }
@@ -66,9 +72,18 @@ void Scene::put_payload(const world::Scenario& scenario, std::span<const Vec3> c
   const std::vector<net::Hanging> places = net::equilibria(net.rest, ground, net.rim());
   const net::Payload& payload = *scenario.payload;
   Vec3 place = places.empty() ? physics_->nodes()[net.size()] : places.front().position;
+  // Above the cloth, which hangs less deep while it is empty.
+  const auto& mesh = physics_->mesh();
+  for (std::size_t v = 0; v < mesh.flat.size(); ++v) {
+    const Vec3 node = physics_->nodes()[v];
+    if (geom::norm((node - place).ground()) < payload.radius + 2.0 * mesh.face_reach)
+      place.z = std::max(place.z, node.z);
+  }
   place.z += 2.0 * payload.radius;
   const std::size_t ball = physics_->add({.position = place, .radius = payload.radius, .mass = payload.mass});
   physics_->advance(corners, kSettling);
+  for (int i = 0; i < kMoreSettlings && norm(physics_->ball(ball).velocity) > kStill; ++i)
+    physics_->advance(corners, kSettling);
   payload_.emplace(ball, net.rim(), Fate::caught);
 }
 
@@ -92,15 +107,6 @@ std::vector<net::Target> Scene::in_the_air() const {
   for (const Thrown& thrown : thrown_)
     if (thrown.in_the_air()) targets.push_back(thrown.estimate());
   return targets;
-}
-
-double Scene::last_crossing() const {
-  double last = 0.0;
-  for (const Thrown& thrown : thrown_) {
-    const auto crossing = net::Flight(thrown.truth()).crossing(thrown.rim());
-    if (crossing) last = std::max(last, crossing->state.time);
-  }
-  return last;
 }
 
 std::vector<Outcome> Scene::outcomes(bool arrived) const {

@@ -27,7 +27,7 @@ class Scene {
   /// Targets that have not reached the rim, as they are known.
   std::vector<net::Target> in_the_air() const;
   /// When the last target really falls through the rim, s; 0 without targets.
-  double last_crossing() const;
+  double last_crossing() const { return last_crossing_; }
   /// One for each target, or for the payload. `arrived`: the team is where things must be delivered.
   std::vector<Outcome> outcomes(bool arrived) const;
   /// What became of objects since the last call, a sentence each.
@@ -40,7 +40,8 @@ class Scene {
   std::unique_ptr<NetPhysics> physics_;
   std::vector<Thrown> thrown_;
   std::optional<CatchWatch> payload_;
-  std::vector<Fate> known_;  // fates that were told
+  std::vector<Fate> known_;     // fates that were told
+  double last_crossing_ = 0.0;  // s
 };
 
 }  // namespace seine::sim

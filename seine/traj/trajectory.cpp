@@ -68,7 +68,12 @@ double RobotTrajectory::arrival() const {
 }
 
 State RobotTrajectory::at(double t) const {
-  if (segments.empty()) return {};
+  if (segments.empty()) {
+    State still;
+    still.t = t;
+    if (stands) still.pose = *stands;
+    return still;
+  }
   if (t < 0.0) return at_rest(evaluate(segments.front(), 0.0), t);
   double begin = 0.0;
   for (const Segment& segment : segments) {

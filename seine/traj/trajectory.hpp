@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "seine/geom/pose2.hpp"
@@ -35,11 +36,15 @@ struct Segment {
   double duration() const { return piece_duration * static_cast<double>(progress.size()); }
 };
 
-/// One car's way: segments in order. Before the first it stands at its start, after the last at its goal.
+/// One car's way: segments in order. Before the first it stands at its start, after the last at its goal. A
+/// car without segments stands at `stands` the whole time, with its wheels straight.
 struct RobotTrajectory {
   std::vector<Segment> segments;
+  std::optional<geom::Pose2> stands{};  ///< where the car stands that has no segments; else absent
 
-  /// When the car has come to rest for good, s: Σ (wait + duration).
+  /// The way of a car that never moves: it has arrived at 0 s.
+  static RobotTrajectory standing(const geom::Pose2& pose) { return {{}, pose}; }
+  /// When the car has come to rest for good, s: Σ (wait + duration); 0 for a car that stands.
   double arrival() const;
   /// State at time t on the common clock; before 0 and after arrival the car rests at its end poses.
   State at(double t) const;

@@ -191,7 +191,7 @@ double JointProblem::team_cost(double knee) {
       chunk_costs_[static_cast<std::size_t>(Proximity::kChunks + chunk)] =
           net_->at_ticks(chunk, states_, ticks_, knee);
     });
-    cost = net_->at_moments(moments_, knee);
+    cost = net_->at_moments(moments_, knee) + net_->on_the_way(states_, ticks_, knee);
   }
   for (const double c : chunk_costs_) cost += c;
   return cost;

@@ -26,6 +26,12 @@ struct CatchTask {
   double most_radius = std::numeric_limits<double>::infinity();  ///< m, of any one: … and no flatter
 };
 
+/// From then on no car drives faster, for the air would blow what lies in the net out of it.
+struct CarryTask {
+  double from = 0.0;   ///< s
+  double speed = 0.0;  ///< m/s
+};
+
 /// An obstacle low enough for the net to pass over.
 struct LowObstacle {
   geom::Convex shape;
@@ -36,6 +42,7 @@ struct LowObstacle {
 struct NetTask {
   net::Net net;
   std::vector<CatchTask> catches;
+  std::vector<CarryTask> carries;
   double loaded_from = std::numeric_limits<double>::infinity();  ///< s: when something lies in it
   std::optional<net::Delivery> delivery;
   const world::StaticMap* tall = nullptr;  ///< what the net must not hang over; must outlive the problem

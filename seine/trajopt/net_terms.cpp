@@ -30,6 +30,7 @@ constexpr double kSkin = 0.8;
 constexpr double kNearLow = 0.15;
 // Shares by which the size limits are tightened, for what happens between ticks.
 constexpr double kTighten = 0.005;
+constexpr double kCarryTighten = 0.03;  // of the speed, which is a mean between ticks
 
 NetTask scaled(NetTask task, const Units& units) {
   const double l = 1.0 / units.length, t = 1.0 / units.time, v = units.time / units.length;
@@ -42,6 +43,7 @@ NetTask scaled(NetTask task, const Units& units) {
     c.margin *= l, c.contact_margin *= l, c.least_spread *= l, c.most_radius *= l;
     c.velocity *= v, c.most_sideways *= v;
   }
+  for (CarryTask& c : task.carries) c.from *= t, c.speed *= v;
   task.loaded_from *= t;
   if (task.delivery) task.delivery->center *= l, task.delivery->radius *= l;
   for (LowObstacle& low : task.low) {
@@ -157,6 +159,28 @@ double NetTerms::at_ticks(int chunk, std::span<ClockState> states, int row, doub
     cost += at_tick(looks_[i], ring, knee);
     pull(states, tick, static_cast<std::size_t>(row), ring);
   }
+  return cost;
+}
+
+double NetTerms::on_the_way(std::span<ClockState> states, int row, double knee) const {
+  double cost = 0.0;
+  const double span = stride_ * tick_;
+  for (const CarryTask& carry : task_.carries)
+    for (std::size_t i = 0; i + 1 < looks_.size(); ++i) {
+      if (static_cast<double>(i + 1) * span <= carry.from) continue;
+      for (std::size_t k = 0; k < task_.net.size(); ++k) {
+        const std::size_t tick = k * static_cast<std::size_t>(row) + i * static_cast<std::size_t>(stride_);
+        ClockState &from = states[tick], &to = states[tick + static_cast<std::size_t>(stride_)];
+        Vec2 g_from, g_to;
+        const double excess = constraint::catch_velocity(from.position, to.position, span, {},
+                                                         (1.0 - kCarryTighten) * carry.speed, g_from, g_to);
+        if (excess <= 0.0) continue;
+        double slope;
+        cost += tick_weight_ * math::hinge(excess, knee, slope);
+        from.g_position += (tick_weight_ * slope) * g_from;
+        to.g_position += (tick_weight_ * slope) * g_to;
+      }
+    }
   return cost;
 }
 

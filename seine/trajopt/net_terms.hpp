@@ -29,6 +29,9 @@ class NetTerms {
   double at_ticks(int chunk, std::span<ClockState> states, int row, double knee) const;
   /// Cost of the terms at the moments. @param states cars × moments
   double at_moments(std::span<ClockState> states, double knee) const;
+  /// Cost of driving too fast with something in the net that the air blows out of it, between the ticks; adds
+  /// to the states' gradients. @param states as for at_ticks
+  double on_the_way(std::span<ClockState> states, int row, double knee) const;
 
  private:
   // What is near the net at one tick.

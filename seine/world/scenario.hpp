@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <string>
@@ -54,7 +55,17 @@ struct Robot {
   geom::Pose2 start;
   double start_speed = 0.0;         ///< m/s, signed
   std::optional<geom::Pose2> goal;  ///< reached at rest; absent: anywhere (only in a team with a net)
+
+  /// Whether it rests at its goal already, so that it may stand: as nearly as the certificate grants
+  /// (docs/certificate.md), less some rounding.
+  bool rests_at_goal() const;
 };
+
+inline bool Robot::rests_at_goal() const {
+  constexpr double kSamePlace = 9e-5;  // m, and rad of the heading
+  return goal && start_speed == 0.0 && geom::norm(goal->position() - start.position()) <= kSamePlace &&
+         std::abs(geom::wrap_angle(goal->heading - start.heading)) <= kSamePlace;
+}
 
 /// Certified clearances, metres.
 struct Margins {

@@ -5,7 +5,6 @@
 #include <numbers>
 #include <optional>
 
-#include "seine/base/error.hpp"
 #include "seine/search/motion.hpp"
 #include "seine/search/path_planner.hpp"
 #include "seine/traj/minco.hpp"
@@ -18,6 +17,7 @@ using geom::Vec2;
 using search::PathPoint;
 
 constexpr double kTinyStretch = 0.05;  // car lengths: exact ends of Reeds-Shepp curves, left to the spline
+constexpr double kTinyShare = 0.1;     // of a way that is itself so short
 constexpr int kLeastPieces = 3;
 
 // A stretch of the path in one gear; s counts from its own start.
@@ -114,9 +114,11 @@ RobotTask task_of(const search::Path& path, const Pose2& end, const world::Scena
                   const world::Robot& robot, const world::StaticMap& map, const Settings& settings) {
   RobotTask task;
   task.model = scenario.model_of(robot);
+  task.start = robot.start;
   task.free_end = !robot.goal;
   std::vector<Pose2> poses;
-  for (const Stretch& stretch : stretches_of(path, kTinyStretch * task.model.length()))
+  const double shortest = std::min(kTinyStretch * task.model.length(), kTinyShare * path.length());
+  for (const Stretch& stretch : stretches_of(path, shortest))
     task.segments.push_back(segment_of(stretch, task.model, settings, poses));
   if (task.segments.empty()) return task;
   // A car that moves at the start keeps its speed if it is not slower than the rest that is none.
@@ -131,11 +133,6 @@ RobotTask task_of(const search::Path& path, const Pose2& end, const world::Scena
                                   {.reach = settings.corridor_reach * task.model.length(),
                                    .clearance = scenario.margins.obstacle + settings.slack});
   return task;
-}
-
-bool stands(const Pose2& start, const Pose2& goal) {
-  return geom::norm(goal.position() - start.position()) < 1e-6 &&
-         std::abs(geom::wrap_angle(goal.heading - start.heading)) < 1e-6;
 }
 
 Vec2 attachment_of(const world::Scenario& scenario, std::size_t robot, const Pose2& pose) {
@@ -213,18 +210,21 @@ Guess guess(const world::Scenario& scenario, const world::StaticMap& map, const 
     search::PathOptions options;
     options.clearance = scenario.margins.obstacle;
     options.deadline = deadline;
+    world::Robot ends_there = robot;
+    ends_there.goal = ends[i];
+    if (ends_there.rests_at_goal()) {
+      paths[i] = search::Path{{{0.0, robot.start, 0.0, 1}}};
+      result.robots[i] = {.model = scenario.model_of(robot), .start = robot.start};
+      return;
+    }
     paths[i] = planners[static_cast<std::size_t>(robot.model)]->plan(robot.start, ends[i], options);
-    if (paths[i]) result.robots[i] = task_of(*paths[i], ends[i], scenario, robot, map, settings);
+    if (paths[i])
+      result.robots[i] = task_of(*paths[i], paths[i]->points.back().pose, scenario, robot, map, settings);
   });
   for (std::size_t k = 0; k < paths.size(); ++k) {
-    const world::Robot& robot = scenario.robots[k];
-    if (!paths[k]) {
-      result.reason = "no path for " + robot.name + " alone";
-      return result;
-    }
-    if (stands(robot.start, ends[k]) || result.robots[k].segments.empty())
-      throw InputError(scenario.name + ": " + robot.name +
-                       " has no way to go; the letter's method cannot plan for a car that stands");
+    if (paths[k]) continue;
+    result.reason = "no path for " + scenario.robots[k].name + " alone";
+    return result;
   }
   return result;
 }

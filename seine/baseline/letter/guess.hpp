@@ -22,7 +22,7 @@ struct Guess {
 /// start moved to the delivery. Empty when there is no room for that in the delivery region.
 std::vector<geom::Pose2> final_poses(const world::Scenario& scenario, const world::StaticMap& map);
 
-/// Throws InputError for a car that stands at its goal: time-flat curves cannot stand.
+/// A car that rests at its goal gets a task without segments: it stands.
 Guess guess(const world::Scenario& scenario, const world::StaticMap& map, const Settings& settings,
             const Deadline& deadline, Workers& workers);
 

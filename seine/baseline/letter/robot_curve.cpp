@@ -29,7 +29,7 @@ void CurveGradient::add(const CurveGradient& other) {
   for (std::size_t i = 0; i < durations.size(); ++i) durations[i] += other.durations[i];
 }
 
-RobotCurve::RobotCurve(const RobotTask& task) {
+RobotCurve::RobotCurve(const RobotTask& task) : stand_(task.start) {
   const auto variable = [this](std::initializer_list<double> values) {
     const int first = variables_;
     start_.insert(start_.end(), values);
@@ -125,6 +125,8 @@ Place RobotCurve::place(int segment, int piece, const Quadrature::Node& node) co
 }
 
 Place RobotCurve::locate(double t) const {
+  if (segments_.empty())
+    return {.position = stand_.position(), .direction = stand_.direction(), .arrived = true};
   int segment = 0;
   const int last = static_cast<int>(segments_.size()) - 1;
   while (segment < last && t >= at(segment + 1).begin) ++segment;
@@ -200,6 +202,7 @@ void RobotCurve::pull(const Place& place, const Quadrature::Node& node, Vec2 g_p
 
 double RobotCurve::pull_at_time(const Place& place, Vec2 g_position, Vec2 g_direction,
                                 CurveGradient& gradient) const {
+  if (segments_.empty()) return 0.0;
   const Vec2 g_velocity = (at(place.segment).gear / place.speed) *
                           (g_direction - geom::dot(g_direction, place.direction) * place.direction);
   const Quadrature::Node node = basis_at(place.w);
@@ -245,6 +248,7 @@ void RobotCurve::gradient(const CurveGradient& of_curve, std::span<double> g) co
 }
 
 traj::RobotTrajectory RobotCurve::trajectory() const {
+  if (segments_.empty()) return traj::RobotTrajectory::standing(stand_);
   traj::RobotTrajectory result;
   for (const Segment& s : segments_) {
     traj::Segment segment{.gear = s.gear, .piece_duration = s.h};

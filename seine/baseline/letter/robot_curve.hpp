@@ -32,7 +32,8 @@ struct CurveGradient {
 
 /// The letter's trajectory of one robot: the flat output as piecewise quintics in time, minimum jerk through
 /// its waypoints (MINCO, s = 3), pieces of one duration within a segment [Wang22], and the chain rule between
-/// the variables (waypoints, cusp poses, final position, virtual times τ) and the coefficients.
+/// the variables (waypoints, cusp poses, final position, virtual times τ) and the coefficients. A robot that
+/// stands has no segments and no variables.
 class RobotCurve {
  public:
   explicit RobotCurve(const RobotTask& task);
@@ -92,6 +93,7 @@ class RobotCurve {
     return polynomials_[static_cast<std::size_t>(s.coefficients / 12 + piece)];
   }
 
+  geom::Pose2 stand_;  // where a robot without segments stands
   std::vector<Segment> segments_;
   std::vector<double> start_;  // values of the variables as the guess has them
   std::vector<double> coefficients_;

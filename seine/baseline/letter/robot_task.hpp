@@ -22,7 +22,8 @@ struct SegmentTask {
 /// What the optimiser is given for one robot.
 struct RobotTask {
   vehicle::Model model;
-  std::vector<SegmentTask> segments;
+  geom::Pose2 start;
+  std::vector<SegmentTask> segments;  ///< none: the car stands at its start
   bool free_cusps = true;       ///< gear-change poses are variables
   bool free_end = false;        ///< so is the final position
   corridor::Corridor corridor;  ///< a region for every sample of the quadrature, in order

@@ -67,6 +67,7 @@ void TeamTerms::add_pair(std::size_t robot, std::size_t other, Share& share) {
 // Whether the other comes near a piece of this robot while that is driven. `cursor` only moves forwards.
 bool TeamTerms::overlap(const Span& span, double reach, std::size_t other, std::size_t& cursor) const {
   const std::vector<Span>& spans = robots_[other].spans();
+  if (spans.empty()) return true;  // it stands: its distance to each sample is quickly found
   const geom::Box near = span.box.inflated(reach);
   while (cursor + 1 < spans.size() && spans[cursor].end < span.begin) ++cursor;
   for (std::size_t i = cursor; i < spans.size(); ++i) {

@@ -48,6 +48,11 @@ TEST(Planted, Malformed) {
       {"extra robot", [](auto& p) { p.robots.push_back(p.robots[0]); }},
       {"no robots", [](auto& p) { p.robots.clear(); }},
       {"no segments", [](auto& p) { p.robots[1].segments.clear(); }},
+      {"segments and a stand", [](auto& p) { p.robots[1].stands = p.robots[1].at(0.0).pose; }},
+      {"NaN stand",
+       [](auto& p) {
+         p.robots[1] = traj::RobotTrajectory::standing({kNaN, 0.0, 0.0});
+       }},
       {"no curve", [&](auto& p) { segment(p).curve.clear(); }},
       {"no progress", [&](auto& p) { segment(p).progress.clear(); }},
       {"negative duration", [&](auto& p) { segment(p).piece_duration = -1.0; }},

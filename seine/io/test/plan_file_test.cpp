@@ -86,6 +86,23 @@ TEST(PlanFile, ReadsBackTheSameBits) {
   }
 }
 
+TEST(PlanFile, ACarThatStandsHasOnePose) {
+  planner::PlanResult result = result_for_two();
+  const geom::Pose2 pose{1.0 / 3, 2e-17, -0.1};
+  result.plan.robots[1] = traj::RobotTrajectory::standing(pose);
+  const std::string text = plan_text(two_cars(), result);
+  const PlanFile read = parse_plan(text, "plan.json");
+  EXPECT_FALSE(read.plan.robots[0].stands);
+  ASSERT_TRUE(read.plan.robots[1].stands);
+  EXPECT_EQ(*read.plan.robots[1].stands, pose);
+  EXPECT_EQ(read.plan.robots[1].arrival(), 0.0);
+  EXPECT_EQ(read.plan.robots[1].at(3.0).pose, pose);
+  const json robot = json::parse(text)["robots"][1];
+  EXPECT_EQ(robot["arrival_s"], 0);
+  EXPECT_EQ(robot["segments"].size(), 0U);
+  EXPECT_EQ(robot["states"].size(), 1U);
+}
+
 TEST(PlanFile, StatesAreSampledAtTwentyHertzUpToTheArrival) {
   const planner::PlanResult result = result_for_two();
   const json plan = json::parse(plan_text(two_cars(), result));

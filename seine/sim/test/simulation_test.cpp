@@ -89,6 +89,47 @@ TEST(Simulation, CarriesAPayload) {
   EXPECT_TRUE(result.delivered);
 }
 
+TEST(Simulation, APayloadHangsInNetsOfEverySize) {
+  for (const int robots : {4, 6, 8})
+    for (const double size : {1.0, 1.5, 2.0}) {
+      Drive drive = drive_of(robots, 1.0, 2.0, 0.0);
+      net::Net& net = *drive.scenario.net;
+      for (geom::Vec2& corner : net.rest) corner *= size;
+      for (net::Attachment& attachment : net.attachments) attachment.height *= size;
+      for (std::size_t k = 0; k < drive.plan.robots.size(); ++k) {
+        const geom::Vec2 corner = 0.86 * net.rest[k] - geom::Vec2{0.2, 0.0};
+        drive.plan.robots[k] = traj::RobotTrajectory::standing({corner.x, corner.y, 0.0});
+        drive.scenario.robots[k].start = {corner.x, corner.y, 0.0};
+      }
+      drive.scenario.delivery = net::Delivery{{}, 0.3, std::nullopt};
+      drive.scenario.payload = net::Payload{};
+      const SimulationResult result = run(drive);
+      EXPECT_TRUE(result.delivered) << robots << " corners, " << size << " times as large";
+    }
+}
+
+TEST(Simulation, TwoObjectsInOnePlaceAtOneTimeLieInOneNet) {
+  for (const double apart : {0.0, 0.03}) {
+    Drive drive = drive_of(4);
+    drive.scenario.targets = {throw_at(drive, 2.0, {1.5, 0.0, -4.0}),
+                              throw_at(drive, 2.0, {1.5, 0.0, -4.0}, {0.0, apart})};
+    const SimulationResult result = run(drive);
+    EXPECT_TRUE(result.delivered) << apart;
+  }
+}
+
+TEST(Simulation, WhatFallsForLongTakesNoTime) {
+  Drive drive = drive_of(4, 1.0, 2.0, 0.0);
+  net::Target target;
+  target.position = {1.0, 0.0, 12.0};
+  target.drag = 60.0;  // 0.4 m/s
+  drive.scenario.targets = {target};
+  const Stopwatch watch;
+  const SimulationResult result = run(drive);
+  EXPECT_TRUE(result.caught);
+  EXPECT_LT(watch.seconds(), 10.0);
+}
+
 TEST(Simulation, TwoTargetsInOneNet) {
   Drive drive = drive_of(4);
   drive.scenario.targets = {throw_at(drive, 1.5, {1.0, 0.4, -4.5}), throw_at(drive, 2.5, {1.0, -0.2, -5.0})};

@@ -1,0 +1,85 @@
+#include "seine/search/short_move.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "seine/search/drive_time.hpp"
+#include "seine/vehicle/reeds_shepp.hpp"
+
+namespace seine::search {
+namespace {
+
+using vehicle::Arc;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kFurthest = 2.0;    // car lengths
+constexpr double kSamePlace = 9e-5;  // m, and rad of the heading: the certificate grants 1e-4
+
+// Of the smallest turning radius. Wide turns are for cars whose wheel turns slowly.
+constexpr std::array kRadii{1.1, 1.4, 2.0, 3.0, 5.0, 8.0, 12.0};
+constexpr std::size_t kQuickWheel = 3;  // so many of them where it turns at once
+
+/// The goal's place when the car only rolls forth or back; nothing when it would miss.
+std::optional<Route> straight_move(const geom::Pose2& start, const geom::Pose2& goal) {
+  const geom::Vec2 gap = goal.position() - start.position();
+  const double along = geom::dot(start.direction(), gap), aside = geom::cross(start.direction(), gap);
+  if (std::abs(aside) > kSamePlace || std::abs(geom::wrap_angle(goal.heading - start.heading)) > kSamePlace)
+    return std::nullopt;
+  const Arc arc{0.0, along};
+  return Route{start, vehicle::drive(start, arc), {arc}};
+}
+
+/// The quickest of the words that are clear.
+class Choice {
+ public:
+  Choice(const geom::Pose2& start, const geom::Pose2& goal, const FootprintChecker& checker)
+      : start_(start), goal_(goal), checker_(checker), room_(checker.room(start)) {}
+
+  void look_at(double radius, const vehicle::DrivingCosts& costs) {
+    std::array<vehicle::ReedsSheppPath, 8> words;
+    const int found = vehicle::reeds_shepp(start_, goal_, radius, costs, words);
+    for (std::size_t k = 0; k < static_cast<std::size_t>(found); ++k) {
+      const double time = drive_time(words[k].arcs(), checker_.model());
+      if (!(time < quickest_) || sweep(checker_, start_, room_, words[k].arcs()) < 0.0) continue;
+      quickest_ = time;
+      const auto arcs = words[k].arcs();
+      best_ = Route{start_, goal_, {arcs.begin(), arcs.end()}};
+    }
+  }
+  std::optional<Route> best() { return std::move(best_); }
+
+ private:
+  const geom::Pose2 &start_, &goal_;
+  const FootprintChecker& checker_;
+  double room_, quickest_ = kInfinity;
+  std::optional<Route> best_;
+};
+
+}  // namespace
+
+std::optional<Route> short_move(const geom::Pose2& start, const geom::Pose2& goal,
+                                const FootprintChecker& checker) {
+  const vehicle::Model& model = checker.model();
+  if (geom::norm(goal.position() - start.position()) > kFurthest * model.length()) return std::nullopt;
+  if (std::optional<Route> move = straight_move(start, goal);
+      move && drive_time(move->arcs, model) < kInfinity &&
+      sweep(checker, start, checker.room(start), move->arcs) >= 0.0)
+    return move;
+
+  const double smallest = 1.0 / model.max_curvature();
+  const vehicle::Limits& limits = model.limits;
+  const double backwards = std::clamp(limits.speed / limits.reverse_speed, 1.0, 1e3);
+  Choice choice(start, goal, checker);
+  const std::size_t radii = std::isfinite(limits.steering_rate) ? kRadii.size() : kQuickWheel;
+  for (std::size_t i = 0; i < radii; ++i) {
+    const double radius = kRadii[i] * smallest;
+    for (const double change : {0.0, 0.3, 2.0})
+      choice.look_at(radius, {.reverse = backwards, .gear_change = change * radius});
+  }
+  return choice.best();
+}
+
+}  // namespace seine::search
