@@ -214,6 +214,14 @@ bool Lattice::check(int index) {
     if (known >= 0 && node(known).cost <= here.cost) return false;
     here.room = p_.checker->sweep(parent.pose, parent.room, here.arc, here.pose);
     if (here.room >= 0.0) break;
+    if (s_.until_blocked) {
+      const double reach = p_.checker->reach(parent.pose, parent.room, here.arc);
+      if (reach < s_.min_step || reach >= std::abs(here.arc.distance)) return false;
+      here.arc.distance = std::copysign(reach, here.arc.distance);
+      here.pose = vehicle::drive(parent.pose, here.arc);
+      here.cost = cost_of(parent, here.arc);
+      continue;
+    }
     if (std::abs(here.arc.distance) < 2.0 * s_.min_step) return false;
     here.arc.distance *= 0.5;
     here.pose = vehicle::drive(parent.pose, here.arc);

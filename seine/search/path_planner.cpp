@@ -27,11 +27,12 @@ constexpr double kQuicker = 0.9;       // a short move by words must save a tent
 constexpr double kDiscCell =
     0.35;  // of the car's width: the side of a heuristic cell, small enough that walls stay tight
 
-constexpr double kFineCell = 0.12;        // the same where it is in doubt whether a gap is wide enough
-constexpr double kTightSlot = 0.1;        // car lengths of room: an end with more is no slot
-constexpr double kComfort = 0.3;          // car widths on either side that a wary way likes to have
-constexpr int kDiscomfort = 10;           // times the cost where it has not
-constexpr double kReverse = 1.5;          // what a metre backwards costs at least
+constexpr double kFineCell = 0.12;    // the same where it is in doubt whether a gap is wide enough
+constexpr double kTightSlot = 0.1;    // car lengths of room: an end with more is no slot
+constexpr double kComfort = 0.3;      // car widths on either side that a wary way likes to have
+constexpr double kBlockedStep = 1.2;  // car lengths: moves that go on until they are blocked are no shorter
+constexpr int kDiscomfort = 10;       // times the cost where it has not
+constexpr double kReverse = 1.5;      // what a metre backwards costs at least
 constexpr double kSteeringChange = 0.05;  // turning radii, from straight to the tightest turn
 
 /// What a metre backwards costs: at least the usual, at most the time it takes, forwards being 1; infinite
@@ -54,6 +55,7 @@ enum class Gaps {
 struct Rung {
   double radius = 1.1;                // of the smallest turning radius
   double step = 0.8, min_step = 0.8;  // turning radii
+  bool until_blocked = false;         // moves end where they are blocked
   double cell = 0.45;                 // turning radii
   int headings = 24;
   bool gears_apart = false;
@@ -69,23 +71,43 @@ struct Rung {
   // much room, car lengths.
   double gates_after = 0.0;
 };
+constexpr Rung parking(double share, double gates_after) {
+  return {.radius = 1.02,
+          .step = 0.4,
+          .min_step = 0.4,
+          .cell = 0.2,
+          .headings = 36,
+          .backward = 5,
+          .slack = 0.2,
+          .gear_change = 0.5,
+          .share = share,
+          .gaps = Gaps::exact,
+          .from_tighter_end = true,
+          .gates_after = gates_after};
+}
 constexpr Rung kLadder[] = {
     {},
     // Buildings where the shortest way turns out to be too narrow.
     {.share = 0.03, .gaps = Gaps::wary, .gates_after = 0.2 * kSlack},
     // Parking, narrow doors.
-    {.radius = 1.02,
-     .step = 0.4,
-     .min_step = 0.4,
-     .cell = 0.2,
-     .headings = 36,
-     .backward = 5,
-     .slack = 0.2,
-     .gear_change = 0.5,
-     .share = 0.3,
+    parking(0.05, 1.0),
+    // Slots between two cars: forth and back as far as it goes.
+    {.radius = 1.03,
+     .step = 2.0,
+     .min_step = 0.01,
+     .until_blocked = true,
+     .cell = 0.04,
+     .headings = 120,
+     .gears_apart = true,
+     .forward = 3,
+     .slack = 0.1,
+     .gear_change = 0.2,
+     .share = 0.1,
      .gaps = Gaps::exact,
-     .from_tighter_end = true,
-     .gates_after = 1.0},
+     .for_slots = true,
+     .from_tighter_end = true},
+    // The third for longer.
+    parking(0.3, 0.0),
     // Slots that take a dozen moves of a few centimetres.
     {.radius = 1.0,
      .step = 0.2,
@@ -213,8 +235,10 @@ LatticeResult PathPlanner::Impl::climb(const Rung& rung, const FootprintChecker&
   problem.costs.bumps = options.bumps;
   LatticeSettings settings;
   settings.step = rung.step * radius;
+  if (rung.until_blocked) settings.step = std::max(settings.step, kBlockedStep * length);
   settings.min_step = rung.min_step * radius;
   settings.cell = rung.cell * radius;
+  settings.until_blocked = rung.until_blocked;
   settings.gears_apart = rung.gears_apart;
   settings.headings = rung.headings;
   const int backward = std::isfinite(reverse) ? rung.backward : 0;
@@ -242,10 +266,10 @@ FootprintChecker PathPlanner::Impl::slackened(const FootprintChecker& free, cons
 /// gear changes are dear.
 void PathPlanner::Impl::hurry(Route& route, const FootprintChecker& checker, const PathOptions& options) {
   take_quickest_word(route, checker, kLadder[0].radius / model.max_curvature());
-  const bool slow_reverse = model.limits.speed > kReverse * model.limits.reverse_speed;
-  if (route.arcs.size() <= 5 && !slow_reverse) return;
+  const bool slow = slow_reverse(model.limits);
+  if (route.arcs.size() <= 5 && !slow) return;
   for (const Rung& rung : kHurried) {
-    if (rung.slow_reverse > 0.0 && !slow_reverse) continue;
+    if (rung.slow_reverse > 0.0 && !slow) continue;
     const LatticeResult result = climb(rung, checker, Route{route.start, route.goal, {}}, false, options,
                                        std::max(150, static_cast<int>(rung.share * options.max_expansions)));
     if (result.route && quicker(*result.route, route, model)) route = *result.route;
@@ -338,6 +362,10 @@ std::optional<Route> PathPlanner::Impl::plan(const geom::Pose2& start, const geo
   if (move && (!route || drive_time(move->arcs, model) < kQuicker * drive_time(route->arcs, model)))
     return move;
   return route;
+}
+
+bool slow_reverse(const vehicle::Limits& limits) {
+  return limits.speed > kReverse * limits.reverse_speed;
 }
 
 PathPlanner::PathPlanner(const world::StaticMap& map, const vehicle::Model& model)
