@@ -68,6 +68,7 @@ bool Session::guess(std::uint64_t attempt) {
   options.deadline = deadline_.within(kGuessShare * deadline_.remaining());
   options.threads = workers_.count();
   options.seed = options_.seed + attempt;
+  options.quickest = attempt == 0;  // where it failed, the way the search found first may do
   options.extra_robot_clearance = 0.01 * static_cast<double>(attempt) * scenario_.models.front().length();
   guess_ = search::guess_team(scenario_, map_, options);
   result_.times.guess += watch.seconds();

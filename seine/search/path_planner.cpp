@@ -239,10 +239,10 @@ FootprintChecker PathPlanner::Impl::slackened(const FootprintChecker& free, cons
 /// gear changes are dear.
 void PathPlanner::Impl::hurry(Route& route, const FootprintChecker& checker, const PathOptions& options) {
   take_quickest_word(route, checker, kLadder[0].radius / model.max_curvature());
-  const bool slow_reverse = model.limits.speed > kReverse * model.limits.reverse_speed;
-  if (route.arcs.size() <= 5 && !slow_reverse) return;
+  const bool slow = slow_reverse(model.limits);
+  if (route.arcs.size() <= 5 && !slow) return;
   for (const Rung& rung : kHurried) {
-    if (rung.slow_reverse > 0.0 && !slow_reverse) continue;
+    if (rung.slow_reverse > 0.0 && !slow) continue;
     const LatticeResult result = climb(rung, checker, Route{route.start, route.goal, {}}, false, options,
                                        std::max(150, static_cast<int>(rung.share * options.max_expansions)));
     if (result.route && quicker(*result.route, route, model)) route = *result.route;
@@ -329,6 +329,10 @@ std::optional<Route> PathPlanner::Impl::plan(const geom::Pose2& start, const geo
                                              const PathOptions& options) {
   int left = options.max_expansions;
   return ladder(start, goal, options, left, true);
+}
+
+bool slow_reverse(const vehicle::Limits& limits) {
+  return limits.speed > kReverse * limits.reverse_speed;
 }
 
 PathPlanner::PathPlanner(const world::StaticMap& map, const vehicle::Model& model)

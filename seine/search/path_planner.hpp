@@ -16,6 +16,9 @@ namespace seine::search {
 /// Points of a planned path are at most this many car lengths apart.
 inline constexpr double kPathSpacing = 0.06;
 
+/// Whether backwards is so much slower than forwards that a way of fewer metres backwards may be the quicker.
+bool slow_reverse(const vehicle::Limits& limits);
+
 /// A place that costs extra to drive through: `weight` (metres of path per metre driven there) at its center,
 /// fading to 0 at its edge.
 struct Bump {

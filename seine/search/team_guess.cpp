@@ -75,13 +75,15 @@ Guess::Guess(const world::Scenario& scenario, const world::StaticMap& map, const
 std::optional<Path> Guess::find_path(int robot, std::span<const Bump> bumps,
                                      std::span<const std::vector<geom::Vec2>> parked, int expansions) const {
   const world::Robot& who = scenario_.robots[idx(robot)];
-  const PathOptions options{.max_expansions = expansions,
-                            .clearance = scenario_.margins.obstacle,
-                            .bumps = bumps,
-                            .parked = parked,
-                            .parked_clearance = scenario_.margins.robot + options_.extra_robot_clearance,
-                            .quickest = scenario_.robots.size() == 1 && bumps.empty(),
-                            .deadline = options_.deadline};
+  const PathOptions options{
+      .max_expansions = expansions,
+      .clearance = scenario_.margins.obstacle,
+      .bumps = bumps,
+      .parked = parked,
+      .parked_clearance = scenario_.margins.robot + options_.extra_robot_clearance,
+      .quickest = options_.quickest && bumps.empty() && parked.empty() &&
+                  (scenario_.robots.size() == 1 || slow_reverse(scenario_.model_of(who).limits)),
+      .deadline = options_.deadline};
   return find_path_from(who, who.start, options);
 }
 

@@ -24,6 +24,8 @@ struct GuessOptions {
       nullptr;  ///< robots that already have their motion and keep it (one entry a robot)
   const std::vector<std::vector<TimedPath>>* avoid =
       nullptr;  ///< per robot, guesses tried before that a repair should not repeat (may be empty)
+  /// Whether a car by itself, or with a slow reverse gear, compares several ways by their time.
+  bool quickest = true;
   LatticeOptions lattice{};  ///< how much of the limits the speed profiles use
   TeamSearchOptions team{};  ///< how much is tried
 };

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "seine/base/rng.hpp"
@@ -128,6 +129,52 @@ TEST(ReedsShepp, PosesAlongThePathAreContinuous) {
       last = pose;
     }
     expect_pose(pose_at(from, path, path.length + 1.0), to, 1e-8);
+  }
+}
+
+/// The shortest of the six Dubins words by brute force: every pair of end turns, the middle solved by the
+/// definition (a word that ends at the goal), turns in steps too fine to miss one.
+double shortest_forwards_by_sampling(const geom::Pose2& from, const geom::Pose2& to, double radius) {
+  double best = std::numeric_limits<double>::infinity();
+  constexpr int kSteps = 720;
+  for (const double first : {1.0, -1.0}) {
+    for (int i = 0; i < kSteps; ++i) {
+      const double t = 2.0 * kPi * i / kSteps;
+      const geom::Pose2 a = drive(from, first / radius, t * radius);
+      for (const double last : {1.0, -1.0}) {
+        // Back from the goal: after a straight the last turn begins where the heading is that of `a`.
+        const double v = std::fmod(last * (to.heading - a.heading) + 8.0 * kPi, 2.0 * kPi);
+        const geom::Pose2 b = drive(to, last / radius, -v * radius);
+        const geom::Vec2 gap = b.position() - a.position();
+        const double along = geom::dot(gap, a.direction());
+        if (along < 0.0 || std::abs(geom::cross(a.direction(), gap)) > 0.01 * radius) continue;
+        best = std::min(best, (t + v) * radius + along);
+      }
+    }
+  }
+  return best;
+}
+
+TEST(ReedsShepp, WithoutAReverseGearEveryGoalHasADubinsWord) {
+  SCOPED_TRACE(kSeed);
+  Rng rng(kSeed);
+  std::array<ReedsSheppPath, 8> best;
+  for (int i = 0; i < 3000; ++i) {
+    const double radius = rng.uniform(0.3, 4.0), extent = i % 2 == 0 ? 8.0 : radius;
+    const auto from = random_pose(rng, extent), to = random_pose(rng, extent);
+    const bool ahead = i % 3 != 0;
+    DrivingCosts costs;
+    (ahead ? costs.reverse : costs.forward) = std::numeric_limits<double>::infinity();
+    const int count = reeds_shepp(from, to, radius, costs, best);
+    ASSERT_GE(count, 2);
+    for (int k = 0; k < count; ++k) {
+      const auto& path = best[static_cast<std::size_t>(k)];
+      expect_pose(pose_at(from, path, path.length), to, 1e-7 * (1.0 + path.length));
+      for (const Arc& arc : path.arcs()) EXPECT_EQ(arc.gear(), ahead ? 1 : -1);
+    }
+    if (ahead && i < 300) {
+      EXPECT_LE(best[0].length, shortest_forwards_by_sampling(from, to, radius) + 0.1 * radius);
+    }
   }
 }
 
