@@ -98,7 +98,12 @@ class Lattice {
         bins_(scratch.bins),
         moves_(Primitives::fan(problem.costs.radius, settings.step, settings.forward, settings.backward)),
         bin_angle_(2.0 * std::numbers::pi / settings.headings),
-        target_(problem.goal * problem.reference) {}
+        target_(problem.goal * problem.reference) {
+    if (!settings.until_blocked) return;
+    const std::vector<Arc> longest = moves_.arcs;
+    for (const double share : {0.25, 0.0625})
+      for (const Arc& arc : longest) moves_.arcs.push_back({arc.curvature, share * arc.distance});
+  }
 
   LatticeResult run();
 
@@ -214,6 +219,14 @@ bool Lattice::check(int index) {
     if (known >= 0 && node(known).cost <= here.cost) return false;
     here.room = p_.checker->sweep(parent.pose, parent.room, here.arc, here.pose);
     if (here.room >= 0.0) break;
+    if (s_.until_blocked) {
+      const double reach = p_.checker->reach(parent.pose, parent.room, here.arc);
+      if (reach < s_.min_step || reach >= std::abs(here.arc.distance)) return false;
+      here.arc.distance = std::copysign(reach, here.arc.distance);
+      here.pose = vehicle::drive(parent.pose, here.arc);
+      here.cost = cost_of(parent, here.arc);
+      continue;
+    }
     if (std::abs(here.arc.distance) < 2.0 * s_.min_step) return false;
     here.arc.distance *= 0.5;
     here.pose = vehicle::drive(parent.pose, here.arc);

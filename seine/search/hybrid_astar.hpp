@@ -15,6 +15,9 @@ struct LatticeSettings {
   double step = 0.8;      ///< m driven per move
   double min_step = 0.8;  ///< m: a move that is blocked is tried at half its length, and so on down to this
   double cell = 0.45;     ///< m, side of a position bin
+  /// Moves end where they are blocked instead, and moves of a quarter and a sixteenth of `step` are tried
+  /// too.
+  bool until_blocked = false;
   bool gears_apart = false;  ///< whether arriving forwards and arriving backwards are different bins
   int headings = 24;         ///< heading bins
   int forward = 5;           ///< curvatures tried forwards (odd)

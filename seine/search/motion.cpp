@@ -181,6 +181,23 @@ double FootprintChecker::sweep(const geom::Pose2& from, double room_from, const 
   return room_to;
 }
 
+double FootprintChecker::reach(const geom::Pose2& from, double room_from, const vehicle::Arc& arc) const {
+  const double length = std::abs(arc.distance), sign = arc.distance < 0.0 ? -1.0 : 1.0;
+  const double speed = fastest_corner(arc.curvature);
+  double s = 0.0, room_here = room_from, slack = slack_at(from.position());
+  while (s < length) {
+    // As far as the room surely lasts, and a little further: contacts are approached in steps of a tenth.
+    const double step = std::max(0.9 * (room_here - slack) / speed, resolution_);
+    const double next = std::min(s + step, length);
+    const geom::Pose2 pose = vehicle::drive(from, arc.curvature, sign * next);
+    const double room_next = room(pose);
+    slack = slack_at(pose.position());
+    if (room_next < slack) return s;
+    s = next, room_here = room_next;
+  }
+  return length;
+}
+
 bool FootprintChecker::clear(const geom::Pose2& from, const vehicle::Arc& arc) const {
   const double room_from = room(from);
   return room_from >= slack_at(from.position()) &&

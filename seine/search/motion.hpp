@@ -66,6 +66,8 @@ class FootprintChecker {
   double sweep(const geom::Pose2& from, double room_from, const vehicle::Arc& arc,
                const geom::Pose2& to) const;
   bool clear(const geom::Pose2& from, const vehicle::Arc& arc) const;
+  /// m, ≤ |arc.distance|: how far along the arc the way stays clear in the sense of `sweep`.
+  double reach(const geom::Pose2& from, double room_from, const vehicle::Arc& arc) const;
 
   /// Samples are never closer than this (m driven) even where there is no slack at all: 1/400 of the car's
   /// length.

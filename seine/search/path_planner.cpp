@@ -51,6 +51,7 @@ enum class Gaps {
 struct Rung {
   double radius = 1.1;                // of the smallest turning radius
   double step = 0.8, min_step = 0.8;  // turning radii
+  bool until_blocked = false;         // moves end where they are blocked
   double cell = 0.45;                 // turning radii
   int headings = 24;
   bool gears_apart = false;
@@ -66,23 +67,43 @@ struct Rung {
   // much room, car lengths.
   double gates_after = 0.0;
 };
+constexpr Rung parking(double share, double gates_after = 0.0) {
+  return {.radius = 1.02,
+          .step = 0.4,
+          .min_step = 0.4,
+          .cell = 0.2,
+          .headings = 36,
+          .backward = 5,
+          .slack = 0.2,
+          .gear_change = 0.5,
+          .share = share,
+          .gaps = Gaps::exact,
+          .from_tighter_end = true,
+          .gates_after = gates_after};
+}
 constexpr Rung kLadder[] = {
     {},
     // Buildings where the shortest way turns out to be too narrow.
     {.share = 0.03, .gaps = Gaps::wary, .gates_after = 0.2 * kSlack},
     // Parking, narrow doors.
-    {.radius = 1.02,
-     .step = 0.4,
-     .min_step = 0.4,
-     .cell = 0.2,
-     .headings = 36,
-     .backward = 5,
-     .slack = 0.2,
-     .gear_change = 0.5,
-     .share = 0.3,
+    parking(0.05, 1.0),
+    // Slots between two cars: forth and back as far as it goes.
+    {.radius = 1.03,
+     .step = 2.0,
+     .min_step = 0.01,
+     .until_blocked = true,
+     .cell = 0.03,
+     .headings = 180,
+     .gears_apart = true,
+     .forward = 3,
+     .slack = 0.1,
+     .gear_change = 0.2,
+     .share = 0.1,
      .gaps = Gaps::exact,
-     .from_tighter_end = true,
-     .gates_after = 1.0},
+     .for_slots = true,
+     .from_tighter_end = true},
+    // The third for longer.
+    parking(0.3),
     // Slots that take a dozen moves of a few centimetres.
     {.radius = 1.0,
      .step = 0.2,
@@ -212,6 +233,7 @@ LatticeResult PathPlanner::Impl::climb(const Rung& rung, const FootprintChecker&
   settings.step = rung.step * radius;
   settings.min_step = rung.min_step * radius;
   settings.cell = rung.cell * radius;
+  settings.until_blocked = rung.until_blocked;
   settings.gears_apart = rung.gears_apart;
   settings.headings = rung.headings;
   const int backward = std::isfinite(reverse) ? rung.backward : 0;

@@ -44,8 +44,9 @@ struct PathOptions {
   Deadline deadline;
 };
 
-/// Paths for one kind of car on one map: Hybrid A* with Reeds-Shepp shots, whole footprint, forward and, where
-/// the car's reverse speed is not 0, reverse. Heuristics are cached per goal region. `plan` may be called from many threads at once.
+/// Paths for one kind of car on one map: Hybrid A* with Reeds-Shepp shots, whole footprint, forward and,
+/// where the car's reverse speed is not 0, reverse. Heuristics are cached per goal region. `plan` may be
+/// called from many threads at once.
 class PathPlanner {
  public:
   PathPlanner(const world::StaticMap& map, const vehicle::Model& model);
