@@ -98,12 +98,7 @@ class Lattice {
         bins_(scratch.bins),
         moves_(Primitives::fan(problem.costs.radius, settings.step, settings.forward, settings.backward)),
         bin_angle_(2.0 * std::numbers::pi / settings.headings),
-        target_(problem.goal * problem.reference) {
-    if (!settings.until_blocked) return;
-    const std::vector<Arc> longest = moves_.arcs;
-    for (const double share : {0.25, 0.0625})
-      for (const Arc& arc : longest) moves_.arcs.push_back({arc.curvature, share * arc.distance});
-  }
+        target_(problem.goal * problem.reference) {}
 
   LatticeResult run();
 

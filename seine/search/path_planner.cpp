@@ -24,11 +24,12 @@ constexpr double kTouch = 1e-9;        // m: rounding of a start that stands exa
 constexpr double kDiscCell =
     0.35;  // of the car's width: the side of a heuristic cell, small enough that walls stay tight
 
-constexpr double kFineCell = 0.12;        // the same where it is in doubt whether a gap is wide enough
-constexpr double kTightSlot = 0.1;        // car lengths of room: an end with more is no slot
-constexpr double kComfort = 0.3;          // car widths on either side that a wary way likes to have
-constexpr int kDiscomfort = 10;           // times the cost where it has not
-constexpr double kReverse = 1.5;          // what a metre backwards costs at least
+constexpr double kFineCell = 0.12;    // the same where it is in doubt whether a gap is wide enough
+constexpr double kTightSlot = 0.1;    // car lengths of room: an end with more is no slot
+constexpr double kComfort = 0.3;      // car widths on either side that a wary way likes to have
+constexpr double kBlockedStep = 1.2;  // car lengths: moves that go on until they are blocked are no shorter
+constexpr int kDiscomfort = 10;       // times the cost where it has not
+constexpr double kReverse = 1.5;      // what a metre backwards costs at least
 constexpr double kSteeringChange = 0.05;  // turning radii, from straight to the tightest turn
 
 /// What a metre backwards costs: at least the usual, at most the time it takes, forwards being 1; infinite
@@ -92,8 +93,8 @@ constexpr Rung kLadder[] = {
      .step = 2.0,
      .min_step = 0.01,
      .until_blocked = true,
-     .cell = 0.03,
-     .headings = 180,
+     .cell = 0.04,
+     .headings = 120,
      .gears_apart = true,
      .forward = 3,
      .slack = 0.1,
@@ -231,6 +232,7 @@ LatticeResult PathPlanner::Impl::climb(const Rung& rung, const FootprintChecker&
   problem.costs.bumps = options.bumps;
   LatticeSettings settings;
   settings.step = rung.step * radius;
+  if (rung.until_blocked) settings.step = std::max(settings.step, kBlockedStep * length);
   settings.min_step = rung.min_step * radius;
   settings.cell = rung.cell * radius;
   settings.until_blocked = rung.until_blocked;
