@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "seine/vehicle/arc.hpp"
@@ -76,7 +78,21 @@ void drive_pieces(traj::Segment& segment, double length, double speed, double ac
   segment.progress.push_back({pieces - 0.5 * step, step, -0.5 * step, 0.0, 0.0, 0.0});
 }
 
-traj::Segment drive_arc(const Placed& placed, const vehicle::Model& model) {
+/// Goes on at the speed it has and brakes in the last piece. False: the way is too short for that.
+bool brake_pieces(traj::Segment& segment, double length, double speed, double acceleration) {
+  const int cruising =
+      std::min(kMostCruising, static_cast<int>(acceleration * length / (speed * speed) - 0.5));
+  if (acceleration * length < 0.5 * speed * speed) return false;
+  segment.piece_duration = length / (speed * (cruising + 0.5));
+  const double step = static_cast<double>(segment.curve.size()) / (cruising + 0.5);
+  for (int i = 0; i < cruising; ++i) segment.progress.push_back({i * step, step, 0.0, 0.0, 0.0, 0.0});
+  segment.progress.push_back({cruising * step, step, -0.5 * step, 0.0, 0.0, 0.0});
+  return true;
+}
+
+/// @param start_speed  m/s, of a car that is moving when the arc begins, else 0
+std::optional<traj::Segment> drive_arc(const Placed& placed, const vehicle::Model& model,
+                                       double start_speed) {
   const Arc& arc = placed.arc;
   const double length = std::abs(arc.distance), bend = std::abs(arc.curvature);
   const int pieces = std::max(1, static_cast<int>(std::ceil(bend * length / kTurn)));
@@ -93,17 +109,26 @@ traj::Segment drive_arc(const Placed& placed, const vehicle::Model& model) {
   if (bend > 0.0) speed = std::min(speed, std::sqrt(limits.lateral_acceleration / bend));
   const double acceleration =
       std::isfinite(limits.acceleration) ? limits.acceleration : speed * speed / length;
-  drive_pieces(segment, length, kKept * speed, kKept * acceleration);
+  if (start_speed == 0.0) {
+    drive_pieces(segment, length, kKept * speed, kKept * acceleration);
+    return segment;
+  }
+  const double rolling = start_speed * segment.gear;
+  const bool follows = rolling > 0.0 && bend * rolling * rolling <= limits.lateral_acceleration;
+  if (!follows || !brake_pieces(segment, length, rolling, (1.0 - 1e-7) * acceleration)) return std::nullopt;
   return segment;
 }
 
 }  // namespace
 
-traj::RobotTrajectory drive_arcs(const search::Path& path, const vehicle::Model& model) {
+traj::RobotTrajectory drive_arcs(const search::Path& path, const vehicle::Model& model, double start_speed) {
   traj::RobotTrajectory drive;
   double steering = 0.0;
   for (const Placed& placed : arcs_of(path)) {
-    traj::Segment segment = drive_arc(placed, model);
+    std::optional<traj::Segment> driven =
+        drive_arc(placed, model, drive.segments.empty() ? start_speed : 0.0);
+    if (!driven) return {};
+    traj::Segment segment = *std::move(driven);
     const double wanted = std::atan(model.wheelbase * placed.arc.curvature);
     // The wheel may stand in any way at first.
     if (!drive.segments.empty() && std::isfinite(model.limits.steering_rate))

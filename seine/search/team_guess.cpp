@@ -115,7 +115,8 @@ std::optional<Path> Guess::find_path_from(const world::Robot& who, const geom::P
   const RollingStart rolling{&map_, &scenario_.model_of(who), start, who.start_speed, options.clearance};
   const double hardest = options_.lattice.acceleration_factor;
   std::optional<Path> path = planner.plan(start, *who.goal, plainly);
-  if (path && follows(rolling, *path, hardest)) return path;
+  // Where that failed the car brakes first.
+  if (path && options_.quickest && follows(rolling, *path, hardest)) return path;
   for (const double share : {0.7 * hardest, hardest}) {
     std::optional<Path> braking = brake_straight(rolling, share);
     if (!braking) continue;
