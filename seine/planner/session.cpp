@@ -6,6 +6,7 @@
 
 #include "seine/base/error.hpp"
 #include "seine/certify/certificate.hpp"
+#include "seine/planner/arc_plan.hpp"
 #include "seine/planner/groups.hpp"
 #include "seine/planner/moving_bodies.hpp"
 #include "seine/planner/net_session.hpp"
@@ -54,7 +55,7 @@ PlanResult Session::run() {
     optimise(gently);
     if (deadline_.expired()) break;
     polish();
-    if (result_.certified) break;
+    if (result_.certified || (gently && stop_and_steer())) break;
     ++result_.repairs;
   }
   return finish();
@@ -76,6 +77,19 @@ bool Session::guess(std::uint64_t attempt) {
     result_.reason =
         options.deadline.expired() ? "no guess for the whole team before the deadline" : guess_.reason;
   return guess_.complete;
+}
+
+// Where the optimiser does not get a car through its way, the car can still drive the way as it was found.
+bool Session::stop_and_steer() {
+  if (scenario_.robots.size() != 1 || deadline_.expired()) return false;
+  traj::RobotTrajectory drive = drive_arcs(guess_.robots[0].path, scenario_.model_of(scenario_.robots[0]));
+  if (drive.segments.empty()) return false;
+  std::swap(result_.plan.robots[0], drive);
+  const certify::Certificate fault = result_.certificate;
+  if (certify()) return true;
+  std::swap(result_.plan.robots[0], drive);
+  result_.certificate = fault;
+  return false;
 }
 
 void Session::prepare() {

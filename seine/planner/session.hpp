@@ -31,6 +31,7 @@ class Session {
   };
 
   bool guess(std::uint64_t attempt);
+  bool stop_and_steer();
   void prepare();
   void place_bodies();
   void optimise(bool gently);

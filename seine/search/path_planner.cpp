@@ -71,7 +71,7 @@ struct Rung {
   // much room, car lengths.
   double gates_after = 0.0;
 };
-constexpr Rung parking(double share, double gates_after) {
+constexpr Rung parking(double share, double gates_after = 0.0) {
   return {.radius = 1.02,
           .step = 0.4,
           .min_step = 0.4,
@@ -107,7 +107,7 @@ constexpr Rung kLadder[] = {
      .for_slots = true,
      .from_tighter_end = true},
     // The third for longer.
-    parking(0.3, 0.0),
+    parking(0.3),
     // Slots that take a dozen moves of a few centimetres.
     {.radius = 1.0,
      .step = 0.2,

@@ -11,6 +11,7 @@
 #include "seine/search/coordinator.hpp"
 #include "seine/search/path_planner.hpp"
 #include "seine/search/precedence.hpp"
+#include "seine/search/rolling_start.hpp"
 #include "seine/search/roundabout.hpp"
 #include "seine/search/side_step.hpp"
 #include "seine/search/space_time_planner.hpp"
@@ -102,42 +103,31 @@ std::optional<Path> Guess::find_path_among(int robot, std::span<const Traffic> t
                         .deadline = options_.deadline});
 }
 
-// A path that begins in the gear the car is moving in: where the shortest does not, the car first brakes
-// straight on.
+// A car that is moving follows a path from its speed on where it can; elsewhere it first brakes straight on,
+// as gently as there is room for.
 std::optional<Path> Guess::find_path_from(const world::Robot& who, const geom::Pose2& start,
                                           const PathOptions& options) const {
   if (who.rests_at_goal()) return Path{{{0.0, start, 0.0, 1}}};
   const PathPlanner& planner = planners_[idx(who.model)];
-  PathOptions rolling = options;
-  rolling.short_moves = who.start_speed == 0.0;
-  std::optional<Path> path = planner.plan(start, *who.goal, rolling);
-  const int gear = who.start_speed < 0.0 ? -1 : 1;
-  const bool goes_on = path && path->length() > 0.0 && path->points.front().gear == gear;
-  if (who.start_speed == 0.0 || goes_on) return path;
+  if (who.start_speed == 0.0) return planner.plan(start, *who.goal, options);
 
-  const vehicle::Model& model = scenario_.model_of(who);
-  constexpr double kBraking = 0.6;  // of the acceleration: room for the profile's steps and for the spline
-  const double length =
-      who.start_speed * who.start_speed / (2.0 * kBraking * model.limits.acceleration) + 0.1 * model.length();
-  constexpr int kSamples = 24;
-  Path braking;
-  std::vector<geom::Vec2> footprint(model.footprint.size());
-  for (int i = 0; i <= kSamples; ++i) {
-    const double s = length * i / kSamples;
-    const geom::Vec2 at = start.position() + (gear * s) * start.direction();
-    const geom::Pose2 pose{at.x, at.y, start.heading};
-    geom::place(model.footprint, pose, footprint);
-    if (!map_.clear(footprint, options.clearance)) return std::nullopt;
-    braking.points.push_back({s, pose, 0.0, gear});
+  PathOptions plainly = options;
+  plainly.short_moves = false;
+  plainly.quickest = false;  // what is quickest from rest need not be from speed
+  const RollingStart rolling{&map_, &scenario_.model_of(who), start, who.start_speed, options.clearance};
+  const double hardest = options_.lattice.acceleration_factor;
+  std::optional<Path> path = planner.plan(start, *who.goal, plainly);
+  // Where that failed the car brakes first.
+  if (path && options_.quickest && follows(rolling, *path, hardest)) return path;
+  for (const double share : {0.7 * hardest, hardest}) {
+    std::optional<Path> braking = brake_straight(rolling, share);
+    if (!braking) continue;
+    const std::optional<Path> onwards = planner.plan(braking->points.back().pose, *who.goal, options);
+    if (!onwards) continue;
+    append(*braking, *onwards);
+    return braking;
   }
-  path = planner.plan(braking.points.back().pose, *who.goal, options);
-  if (!path) return std::nullopt;
-  const bool same_gear = path->points.front().gear == gear;
-  for (std::size_t i = same_gear ? 1 : 0; i < path->points.size(); ++i) {
-    braking.points.push_back(path->points[i]);
-    braking.points.back().s += length;
-  }
-  return braking;
+  return path && path->length() > 0.0 && path->points.front().gear == rolling.gear() ? path : std::nullopt;
 }
 
 TeamSearch::Sources Guess::sources() const {
@@ -172,6 +162,15 @@ bool Guess::find_first_ways(Attempt& attempt) {
     if (std::optional<Path> path = find_path(robot, {}, {}, kPatience))
       attempt.coordinator->add_way(robot, std::move(*path));
   });
+  for (int i = 0; i < count; ++i) {
+    const world::Robot& who = scenario_.robots[idx(i)];
+    if (who.start_speed == 0.0 || attempt.coordinator->fixed(i) || !attempt.coordinator->ways(i).empty())
+      continue;
+    const std::string reason = no_room_to_stop(
+        {&map_, &scenario_.model_of(who), who.start, who.start_speed, scenario_.margins.obstacle});
+    if (!reason.empty() && guess_.reason.empty()) guess_.reason = who.name + " " + reason;
+  }
+  if (!guess_.reason.empty()) return false;
   const char* none = options_.deadline.expired() ? "no time to find a path: " : "no path even alone: ";
   for (int i = 0; i < count; ++i)
     if (!attempt.coordinator->fixed(i) && attempt.coordinator->ways(i).empty())
@@ -305,6 +304,15 @@ TeamGuess guess_team(const world::Scenario& scenario, const world::StaticMap& ma
                      const GuessOptions& options) {
   TeamGuess guess = Guess(scenario, map, options).run();
   guess.extra_robot_clearance = options.extra_robot_clearance;
+  const bool rolling = std::any_of(scenario.robots.begin(), scenario.robots.end(),
+                                   [](const world::Robot& robot) { return robot.start_speed != 0.0; });
+  if (!guess.complete && rolling && !options.deadline.expired()) {
+    constexpr double kHard = 0.985;  // of the limits, where a car has to stop at once
+    GuessOptions hard = options;
+    hard.lattice.acceleration_factor = kHard;
+    hard.lattice.speed_factor = std::max(options.lattice.speed_factor, kHard);
+    if (TeamGuess other = Guess(scenario, map, hard).run(); other.complete) return other;
+  }
   // Cars that start nose to nose may not be able to part with more room than the margin.
   for (const double share : {0.5, 0.0}) {
     if (guess.complete || options.extra_robot_clearance <= 0.0 || options.deadline.expired()) break;

@@ -1,0 +1,52 @@
+#include "seine/planner/arc_plan.hpp"
+
+#include <gtest/gtest.h>
+
+#include "seine/base/rng.hpp"
+#include "seine/certify/certificate.hpp"
+#include "seine/planner/planner.hpp"
+#include "seine/search/path_planner.hpp"
+#include "seine/vehicle/catalogue.hpp"
+#include "seine/world/everyday.hpp"
+
+namespace seine::planner {
+namespace {
+
+constexpr std::uint64_t kSeed = 11;
+
+TEST(ArcPlan, EveryPathOfTheSearchIsDrivenToTheLetter) {
+  SCOPED_TRACE(kSeed);
+  int driven = 0;
+  for (const vehicle::CatalogueEntry& entry : vehicle::catalogue()) {
+    for (std::uint64_t seed = kSeed; seed < kSeed + 3; ++seed) {
+      const world::Scenario scenario = world::everyday(world::Everyday::lot, entry.model, seed);
+      const world::StaticMap map(scenario);
+      const world::Robot& robot = scenario.robots[0];
+      const std::optional<search::Path> path =
+          search::PathPlanner(map, scenario.models[0])
+              .plan(robot.start, *robot.goal, {.clearance = scenario.margins.obstacle});
+      if (!path || path->points.size() < 2) continue;
+      const traj::TeamTrajectory plan{{drive_arcs(*path, scenario.models[0])}};
+      const certify::Certificate certificate = certify::certify(scenario, map, plan, {});
+      EXPECT_TRUE(certificate.holds) << scenario.name << ": " << certificate.violations.front().text;
+      ++driven;
+    }
+  }
+  EXPECT_GE(driven, 30);
+}
+
+/// Slots of 1.4 to 1.6 lengths, doors, garages: a driver gets in and out, so does every car of the catalogue.
+TEST(Plan, GetsIntoTightPlacesAndOut) {
+  for (const world::Everyday kind : {world::Everyday::parallel, world::Everyday::pocket}) {
+    for (const char* name : {"letter", "hunter", "rc-1-10", "autoware"}) {
+      const vehicle::Model* model = vehicle::catalogued(name);
+      ASSERT_NE(model, nullptr);
+      const world::Scenario scenario = world::everyday(kind, *model, kSeed);
+      const PlanResult result = plan(scenario, {.deadline_s = 20.0, .threads = 1});
+      EXPECT_TRUE(result.certified) << scenario.name << ": " << result.reason;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace seine::planner
