@@ -10,6 +10,7 @@
 #include "seine/planner/groups.hpp"
 #include "seine/planner/moving_bodies.hpp"
 #include "seine/planner/net_session.hpp"
+#include "seine/planner/straight_hop.hpp"
 #include "seine/world/check.hpp"
 
 namespace seine::planner {
@@ -96,10 +97,13 @@ void Session::prepare() {
   const Stopwatch watch;
   const std::size_t count = scenario_.robots.size();
   tasks_.assign(count, {});
+  given_.assign(count, {});
   workers_.run(static_cast<int>(count), [&](int k) {
     const auto i = static_cast<std::size_t>(k);
-    if (guess_.robots[i].stands())
-      tasks_[i].model = scenario_.model_of(scenario_.robots[i]);
+    const world::Robot& robot = scenario_.robots[i];
+    given_[i] = straight_hop(guess_.robots[i], scenario_.model_of(robot), robot.start_speed);
+    if (given_[i])
+      tasks_[i].model = scenario_.model_of(robot);
     else
       tasks_[i] = fit(guess_.robots[i], scenario_, scenario_.robots[i], map_);
   });
@@ -125,8 +129,7 @@ void Session::prepare() {
   fault_rounds_.assign(count, 0);
   result_.plan.robots.assign(count, {});
   for (std::size_t k = 0; k < count; ++k)
-    if (guess_.robots[k].stands())
-      result_.plan.robots[k] = traj::RobotTrajectory::standing(scenario_.robots[k].start);
+    if (given_[k]) result_.plan.robots[k] = *given_[k];
   result_.times.corridor += watch.seconds();
 }
 
@@ -218,10 +221,10 @@ std::vector<Session::Group> Session::close_groups(double gap) const {
   return groups.all();
 }
 
-// A car that stands has nothing to optimise: the others see it as a body.
+// A car that stands, or as good as stands, has nothing to optimise: the others see it as a body.
 std::vector<Session::Group> Session::movers(std::vector<Group> groups) const {
   for (Group& group : groups)
-    std::erase_if(group, [&](int k) { return guess_.robots[static_cast<std::size_t>(k)].stands(); });
+    std::erase_if(group, [&](int k) { return given_[static_cast<std::size_t>(k)].has_value(); });
   std::erase_if(groups, [](const Group& group) { return group.empty(); });
   return groups;
 }

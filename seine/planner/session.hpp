@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "seine/base/workers.hpp"
@@ -60,7 +61,8 @@ class Session {
   double tick_ = 0.05;  // s
   int ticks_ = 1;
   std::vector<trajopt::RobotTask> tasks_;
-  std::vector<std::vector<double>> solution_;  // per robot: the optimiser's variables
+  std::vector<std::optional<traj::RobotTrajectory>> given_;  // per robot: its way where none is optimised
+  std::vector<std::vector<double>> solution_;                // per robot: the optimiser's variables
   std::vector<int> fault_rounds_;         // per robot: rounds in a row in which the certificate blamed it
   std::vector<int> evaluations_;          // per robot: of the last group it was solved in
   std::vector<trajopt::Body> bodies_;     // every robot as it moves now, then the moving obstacles' parts

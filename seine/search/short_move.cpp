@@ -17,10 +17,14 @@ using vehicle::Arc;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kFurthest = 2.0;    // car lengths
 constexpr double kSamePlace = 9e-5;  // m, and rad of the heading: the certificate grants 1e-4
+constexpr double kNoLength = 1e-9;   // m
 
-// Of the smallest turning radius. Wide turns are for cars whose wheel turns slowly.
-constexpr std::array kRadii{1.1, 1.4, 2.0, 3.0, 5.0, 8.0, 12.0};
-constexpr std::size_t kQuickWheel = 3;  // so many of them where it turns at once
+// Car lengths: shorter stretches save next to no time, and are lost between the optimiser's tolerances.
+constexpr double kLeastStretch = 0.02;
+
+// Of the smallest turning radius. Wide turns are for cars whose wheel turns slowly, and the widest for goals
+// so near that tight ones would make stretches too short.
+constexpr std::array kRadii{1.1, 1.4, 2.0, 3.0, 5.0, 8.0, 12.0, 30.0, 80.0, 200.0, 500.0, 1200.0};
 
 /// The goal's place when the car only rolls forth or back; nothing when it would miss.
 std::optional<Route> straight_move(const geom::Pose2& start, const geom::Pose2& goal) {
@@ -30,6 +34,22 @@ std::optional<Route> straight_move(const geom::Pose2& start, const geom::Pose2& 
     return std::nullopt;
   const Arc arc{0.0, along};
   return Route{start, vehicle::drive(start, arc), {arc}};
+}
+
+/// Of the stretches in one gear, m.
+double shortest_stretch(std::span<const Arc> arcs) {
+  double shortest = kInfinity, stretch = 0.0;
+  int gear = 0;
+  for (const Arc& arc : arcs) {
+    if (std::abs(arc.distance) < kNoLength) continue;
+    if (gear != 0 && arc.gear() != gear) {
+      shortest = std::min(shortest, stretch);
+      stretch = 0.0;
+    }
+    gear = arc.gear();
+    stretch += std::abs(arc.distance);
+  }
+  return std::min(shortest, stretch);
 }
 
 /// The quickest of the words that are clear.
@@ -42,6 +62,7 @@ class Choice {
     std::array<vehicle::ReedsSheppPath, 8> words;
     const int found = vehicle::reeds_shepp(start_, goal_, radius, costs, words);
     for (std::size_t k = 0; k < static_cast<std::size_t>(found); ++k) {
+      if (shortest_stretch(words[k].arcs()) < kLeastStretch * checker_.model().length()) continue;
       const double time = drive_time(words[k].arcs(), checker_.model());
       if (!(time < quickest_) || sweep(checker_, start_, room_, words[k].arcs()) < 0.0) continue;
       quickest_ = time;
@@ -73,9 +94,8 @@ std::optional<Route> short_move(const geom::Pose2& start, const geom::Pose2& goa
   const vehicle::Limits& limits = model.limits;
   const double backwards = std::clamp(limits.speed / limits.reverse_speed, 1.0, 1e3);
   Choice choice(start, goal, checker);
-  const std::size_t radii = std::isfinite(limits.steering_rate) ? kRadii.size() : kQuickWheel;
-  for (std::size_t i = 0; i < radii; ++i) {
-    const double radius = kRadii[i] * smallest;
+  for (const double share : kRadii) {
+    const double radius = share * smallest;
     for (const double change : {0.0, 0.3, 2.0})
       choice.look_at(radius, {.reverse = backwards, .gear_change = change * radius});
   }
