@@ -83,7 +83,9 @@ bool Session::guess(std::uint64_t attempt) {
 // Where the optimiser does not get a car through its way, the car can still drive the way as it was found.
 bool Session::stop_and_steer() {
   if (scenario_.robots.size() != 1 || deadline_.expired()) return false;
-  traj::RobotTrajectory drive = drive_arcs(guess_.robots[0].path, scenario_.model_of(scenario_.robots[0]));
+  const world::Robot& robot = scenario_.robots[0];
+  traj::RobotTrajectory drive =
+      drive_arcs(guess_.robots[0].path, scenario_.model_of(robot), robot.start_speed);
   if (drive.segments.empty()) return false;
   std::swap(result_.plan.robots[0], drive);
   const certify::Certificate fault = result_.certificate;
