@@ -56,11 +56,11 @@ Coordinator::Coordinator(const world::Scenario& scenario, const LatticeOptions& 
     for (const MovingPart& part : parts) obstacles_[c].emplace_back(part.shape, part.motion, clocks_[c]);
 }
 
-std::shared_ptr<Way> Coordinator::make_way(int robot, Path path) const {
+std::shared_ptr<Way> Coordinator::make_way(int robot, Path path, bool careful) const {
   const Kind& kind = *car(robot).kind;
   const double start_speed = scenario_.robots[idx(robot)].start_speed;
   auto way = std::make_shared<Way>(
-      Way{SpeedLattice(std::move(path), kind.grid, kind.footprint, start_speed), 0.0, {}, {}, 0});
+      Way{SpeedLattice(std::move(path), kind.grid, kind.footprint, start_speed, careful), 0.0, {}, {}, 0});
   if (!way->lattice.drivable()) return nullptr;
   way->reach = way->lattice.reach();
   way->alone = kind.grid.half_step() * static_cast<double>(std::max<std::size_t>(way->reach.size(), 1) - 1);

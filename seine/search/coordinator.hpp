@@ -60,7 +60,8 @@ class Coordinator {
 
   int robots() const { return static_cast<int>(cars_.size()); }
   /// A path made ready for the robot, except for what it can do alone; null when it cannot be driven.
-  std::shared_ptr<Way> make_way(int robot, Path path) const;
+  /// @param careful as SpeedLattice
+  std::shared_ptr<Way> make_way(int robot, Path path, bool careful = false) const;
   /// Looks for the unhindered drive. False: there is none.
   bool finish_way(Way& way) const;
   /// Finished ways that `place` chooses from.

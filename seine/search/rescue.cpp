@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "seine/search/space_time_planner.hpp"
 #include "seine/search/team_search.hpp"
 
 namespace seine::search {
@@ -25,26 +26,32 @@ bool Rescue::run(std::span<const int> group, TeamState& state, const Deadline& d
     if (!coordinator_.ways(robot).empty()) alone = std::max(alone, coordinator_.alone(robot));
   TeamState without = state;
   for (const int robot : order) without[idx(robot)] = nullptr;
-  for (const double delay : kDelays) {
-    if (delay > 0.0 && order.size() < 2) break;
-    TeamState best;
-    int tried = 0;
-    do {
-      if (deadline.expired()) break;
-      TeamState trial = without;
-      if (!attempt(order, delay * alone, trial)) continue;
-      settle(order, trial);
-      if (best.empty() || sum_of_arrivals(trial) < sum_of_arrivals(best)) best = std::move(trial);
-    } while (++tried < kMostOrders && std::next_permutation(order.begin(), order.end()));
-    std::sort(order.begin(), order.end());
-    if (best.empty()) continue;
-    state = std::move(best);
-    return true;
-  }
+  for (int patience = 0; patience <= SpaceTimePlanner::kMostPatience; ++patience)
+    for (const double delay : kDelays) {
+      if (delay > 0.0 && order.size() < 2) break;
+      TeamState best = best_of_orders(order, delay * alone, patience, without, deadline);
+      if (best.empty()) continue;
+      state = std::move(best);
+      return true;
+    }
   return false;
 }
 
-bool Rescue::attempt(const std::vector<int>& order, double delay, TeamState& state) {
+TeamState Rescue::best_of_orders(std::vector<int> order, double delay, int patience, const TeamState& without,
+                                 const Deadline& deadline) {
+  TeamState best;
+  int tried = 0;
+  do {
+    if (deadline.expired()) break;
+    TeamState trial = without;
+    if (!attempt(order, delay, patience, trial)) continue;
+    settle(order, trial);
+    if (best.empty() || sum_of_arrivals(trial) < sum_of_arrivals(best)) best = std::move(trial);
+  } while (++tried < kMostOrders && std::next_permutation(order.begin(), order.end()));
+  return best;
+}
+
+bool Rescue::attempt(const std::vector<int>& order, double delay, int patience, TeamState& state) {
   for (const int robot : order) {
     const bool waits = robot == order.front() && delay > 0.0;
     Placed placed;
@@ -54,7 +61,7 @@ bool Rescue::attempt(const std::vector<int>& order, double delay, TeamState& sta
         if (other && (!placed || other->arrival < placed->arrival)) placed = std::move(other);
       }
     } else {
-      placed = among_(robot, state, coordinator_.place(robot, state, workspace_));
+      placed = among_(robot, state, coordinator_.place(robot, state, workspace_), patience);
     }
     if (!placed) return false;
     state[idx(robot)] = std::move(placed);

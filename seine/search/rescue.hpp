@@ -17,7 +17,7 @@ class Rescue {
  public:
   using Placed = std::shared_ptr<const Placement>;
   /// A motion among the others of `state`, found by a space-time search when that is better than `best`.
-  using Among = std::function<Placed(int robot, const TeamState& state, Placed best)>;
+  using Among = std::function<Placed(int robot, const TeamState& state, Placed best, int patience)>;
 
   Rescue(const Coordinator& coordinator, Among among, CoordinatorWorkspace& workspace)
       : coordinator_(coordinator), among_(std::move(among)), workspace_(workspace) {}
@@ -27,7 +27,9 @@ class Rescue {
   bool run(std::span<const int> group, TeamState& state, const Deadline& deadline);
 
  private:
-  bool attempt(const std::vector<int>& order, double delay, TeamState& state);
+  bool attempt(const std::vector<int>& order, double delay, int patience, TeamState& state);
+  TeamState best_of_orders(std::vector<int> order, double delay, int patience, const TeamState& without,
+                           const Deadline& deadline);
   void settle(const std::vector<int>& order, TeamState& state);
 
   const Coordinator& coordinator_;

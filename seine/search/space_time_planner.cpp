@@ -11,6 +11,8 @@ namespace {
 // As in the path search (docs/front-end-paths.md), in car lengths and widths.
 constexpr double kSlack = 0.025, kEaseRadius = 1.5, kDiscCell = 0.2;
 
+constexpr double kWaiting = 0.2;  // a second of waiting against one of driving
+
 // One search, lengths in turning radii.
 struct Rung {
   double radius;  // of the smallest turning radius
@@ -19,9 +21,12 @@ struct Rung {
   double slack;  // of the full slack
   int expansions;
 };
-constexpr Rung kLadder[] = {
+// By patience.
+constexpr Rung kRungs[] = {
+    {1.1, 0.8, 0.4, 0.45, 24, 1.0, 400},
     {1.1, 0.8, 0.4, 0.45, 24, 1.0, 1500},
-    {1.02, 0.4, 0.2, 0.25, 36, 0.2, 6000},
+    {1.02, 0.4, 0.2, 0.25, 36, 0.2, 2500},
+    {1.02, 0.4, 0.2, 0.25, 36, 0.2, 10000},
 };
 
 }  // namespace
@@ -61,38 +66,37 @@ std::optional<Path> SpaceTimePlanner::plan(const geom::Pose2& start, const geom:
       cache_, {.distances = &distances_, .radius = disc.inner + options.clearance}, goal * reference);
   FootprintChecker free(map_, &distances_, model_, options.clearance);
   const double room_start = free.exact_room(start), room_goal = free.exact_room(goal);
-  for (const Rung& rung : kLadder) {
-    const double radius = rung.radius / model_.max_curvature();
-    const double slack = rung.slack * kSlack * model_.length();
-    FootprintChecker checker = free;
-    checker.set_slack(slack);
-    checker.ease_slack(start.position(), kEaseRadius * model_.length(),
-                       std::max(0.0, std::min(slack, 0.5 * room_start)));
-    checker.ease_slack(goal.position(), kEaseRadius * model_.length(),
-                       std::max(0.0, std::min(slack, 0.5 * room_goal)));
-    SpaceTimeProblem problem;
-    problem.start = start;
-    problem.goal = goal;
-    problem.checker = &checker;
-    problem.to_go = to_go.get();
-    problem.reference = reference;
-    problem.footprint = &footprint_;
-    problem.grid = &grid_;
-    problem.traffic = wished;
-    problem.radius = radius;
-    problem.deadline = options.deadline;
-    SpaceTimeSettings settings;
-    settings.step = rung.step * radius;
-    settings.min_step = rung.min_step * radius;
-    settings.cell = rung.cell * radius;
-    settings.headings = rung.headings;
-    settings.speed_share = options.pace;
-    settings.max_expansions = static_cast<int>(options.effort * rung.expansions);
-    const SpaceTimeResult result = search_space_time(problem, settings);
-    expansions_ += result.expansions;
-    if (result.route) return sampled(*result.route, kPathSpacing * model_.length());
-    if (result.goal_blocked) break;
-  }
+  const Rung& rung = kRungs[std::clamp(options.patience, 0, kMostPatience)];
+  const double radius = rung.radius / model_.max_curvature();
+  const double slack = rung.slack * kSlack * model_.length();
+  FootprintChecker checker = free;
+  checker.set_slack(slack);
+  checker.ease_slack(start.position(), kEaseRadius * model_.length(),
+                     std::max(0.0, std::min(slack, 0.5 * room_start)));
+  checker.ease_slack(goal.position(), kEaseRadius * model_.length(),
+                     std::max(0.0, std::min(slack, 0.5 * room_goal)));
+  SpaceTimeProblem problem;
+  problem.start = start;
+  problem.goal = goal;
+  problem.checker = &checker;
+  problem.to_go = to_go.get();
+  problem.reference = reference;
+  problem.footprint = &footprint_;
+  problem.grid = &grid_;
+  problem.traffic = wished;
+  problem.radius = radius;
+  problem.deadline = options.deadline;
+  SpaceTimeSettings settings;
+  settings.step = rung.step * radius;
+  settings.min_step = rung.min_step * radius;
+  settings.cell = rung.cell * radius;
+  settings.headings = rung.headings;
+  settings.speed_share = options.pace;
+  settings.waiting = options.hurry ? 1.0 : kWaiting;
+  settings.max_expansions = rung.expansions;
+  const SpaceTimeResult result = search_space_time(problem, settings);
+  expansions_ += result.expansions;
+  if (result.route) return sampled(*result.route, kPathSpacing * model_.length());
   return std::nullopt;
 }
 

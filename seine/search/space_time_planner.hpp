@@ -13,9 +13,10 @@ namespace seine::search {
 
 struct SpaceTimeOptions {
   double clearance = 0.05;  ///< m, certified margin to static obstacles
-  double extra = 0.0;   ///< m, wished for on top of the traffic's clearance, where the ends leave that much
-  double pace = 0.7;    ///< of the grid's speeds: what the car is assumed to drive at
-  double effort = 1.0;  ///< of the expansions that are usually allowed
+  double extra = 0.0;  ///< m, wished for on top of the traffic's clearance, where the ends leave that much
+  double pace = 0.7;   ///< of the grid's speeds: what the car is assumed to drive at
+  int patience = 0;    ///< 0 to kMostPatience: how long to look
+  bool hurry = false;  ///< rather go far around than wait long
   Deadline deadline;
 };
 
@@ -25,6 +26,7 @@ class SpaceTimePlanner {
  public:
   SpaceTimePlanner(const world::StaticMap& map, const vehicle::Model& model, const SpeedGrid& grid);
 
+  static constexpr int kMostPatience = 3;
   /// A path that can be driven in time among the traffic, or nothing when none was found.
   std::optional<Path> plan(const geom::Pose2& start, const geom::Pose2& goal,
                            std::span<const Traffic> traffic, const SpaceTimeOptions& options);

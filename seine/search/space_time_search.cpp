@@ -17,13 +17,17 @@ using vehicle::Arc;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kWords = 3;    // Reeds-Shepp words tried per shot
-constexpr double kSample = 0.1;      // car lengths between the places at which a move is tested
+constexpr double kSample = 0.2;      // car lengths between the places at which a move is tested
 constexpr double kReverse = 0.3;     // what a second backwards costs more than one forwards
 constexpr double kGearChange = 0.5;  // turning radii at full pace, beside stopping and starting
 constexpr double kSteering = 0.05;   // turning radii at full pace, from straight to the tightest turn
 constexpr int kEagerShots = 50;      // nodes that shoot at the goal each; later ones only now and then
 constexpr int kShotEvery = 4;
 constexpr double kNear = 4.0;  // turning radii to the goal: from here every node shoots
+
+// A velocity plan rests at units, and tests groups of units as one: as many units are kept free to either
+// side.
+constexpr double kBlur = 3.0;
 
 struct Node {
   geom::Pose2 pose;
@@ -37,6 +41,7 @@ struct Node {
   int parent;       // −1 at the root
   int span;         // how many times the traffic has been here before
   bool timed;       // static obstacles and traffic were looked at
+  bool shot;        // the way to the goal on free ground is known
 };
 
 struct Entry {
@@ -57,7 +62,8 @@ class SpaceTime {
         moves_(Primitives::fan(problem.radius, settings.step, settings.forward,
                                problem.grid->reverse_speed > 0.0 ? settings.backward : 0)),
         top_(settings.speed_share * problem.grid->speed),
-        sample_(kSample * problem.checker->model().length()) {}
+        sample_(kSample * problem.checker->model().length()),
+        blur_(kBlur * problem.grid->unit) {}
 
   SpaceTimeResult run();
 
@@ -67,6 +73,11 @@ class SpaceTime {
   double lag(const Arc& arc) const { return 0.5 * pace(arc) / p_.grid->acceleration; }
   double ahead(const geom::Pose2& pose) { return (*p_.to_go)(pose * p_.reference) / top_; }
   double extra(const Arc& arc, const Node& before) const;
+  // Where waiting costs as much as driving nobody is done before the goal is free.
+  double estimate(const Node& n) const {
+    const double whole = n.cost + s_.heuristic_weight * n.left;
+    return s_.waiting < 1.0 ? whole : std::max(whole, goal_free_);
+  }
   std::uint64_t bin(const Node& n) const;
   bool start();
   void push(int index);
@@ -76,7 +87,7 @@ class SpaceTime {
   void arrive(Node child, double room, double duration);
   double forbid(const geom::Pose2& from, std::span<const Arc> arcs);
   double depart(double passing, double starting, double latest) const;
-  void shoot(int index);
+  double shoot(int index, bool try_them);
   bool try_word(int index, const vehicle::ReedsSheppPath& word);
   Route route() const;
 
@@ -86,11 +97,15 @@ class SpaceTime {
   Primitives moves_;
   double top_;     // m/s, assumed
   double sample_;  // m
+  double blur_;    // m
   std::vector<Node> nodes_;
   std::vector<Entry> open_;
-  std::unordered_map<std::uint64_t, double> bins_;  // the lowest cost in it
-  std::vector<Span> forbidden_;                     // when a move may not begin
-  double goal_free_ = 0.0;                          // s: from then on for good
+  struct Best {
+    double cost = kInfinity, time = kInfinity;  // s, of all nodes in a bin
+  };
+  std::unordered_map<std::uint64_t, Best> bins_;
+  std::vector<Span> forbidden_;  // when a move may not begin
+  double goal_free_ = 0.0;       // s: from then on for good
   double best_cost_ = kInfinity, best_arrival_ = kInfinity;
   int best_node_ = -1;
   vehicle::ReedsSheppPath best_word_;
@@ -153,7 +168,7 @@ void SpaceTime::add(int index, const Arc& move) {
   child.time = parent.time + pause + duration;
   child.cost = parent.cost + pause + duration + extra(move, parent);
   child.left = std::max(parent.left - std::abs(move.distance) / top_, 0.0);
-  child.estimate = std::max(child.cost + s_.heuristic_weight * child.left, goal_free_);
+  child.estimate = estimate(child);
   if (child.estimate >= best_cost_) return;
   nodes_.push_back(child);
   push(static_cast<int>(nodes_.size()) - 1);
@@ -180,8 +195,9 @@ double SpaceTime::forbid(const geom::Pose2& from, std::span<const Arc> arcs) {
     const double half = 0.5 * length / samples;
     for (int k = 0; k < samples; ++k) {
       const double s = (2 * k + 1) * half;
-      keep_off(vehicle::drive(pose, arc.curvature, arc.gear() * s), {half, half, std::abs(arc.curvature)},
-               time + duration * k / samples, time + duration * (k + 1) / samples);
+      keep_off(vehicle::drive(pose, arc.curvature, arc.gear() * s),
+               {half + blur_, half + blur_, std::abs(arc.curvature)}, time + duration * k / samples,
+               time + duration * (k + 1) / samples);
     }
     pose = vehicle::drive(pose, arc);
     time += duration;
@@ -221,10 +237,11 @@ void SpaceTime::arrive(Node child, double room, double duration) {
   const Node parent = node(child.parent);
   const bool rolls = parent.parent >= 0 && parent.arc.gear() == child.arc.gear();
   const double starting = parent.time + lag(child.arc) + (parent.parent >= 0 ? lag(parent.arc) : 0.0);
-  const std::span<const Span> busy = ground_.busy(child.pose);
+  const std::span<const Span> busy = ground_.busy(child.pose, {blur_, blur_, std::abs(child.arc.curvature)});
   child.room = room;
   child.timed = true;
-  double passing = rolls ? parent.time : starting;
+  const double earliest = rolls ? parent.time : starting;
+  double passing = earliest;
   int last_span = -1;
   for (;;) {
     const double begin = depart(passing, starting, parent.leave_by);
@@ -240,8 +257,9 @@ void SpaceTime::arrive(Node child, double room, double duration) {
     }
     if (!taken && child.span != last_span) {
       last_span = child.span;
-      child.cost = parent.cost + (child.time - parent.time) + extra(child.arc, parent);
-      child.estimate = std::max(child.cost + s_.heuristic_weight * child.left, goal_free_);
+      child.cost = parent.cost + (earliest + duration - parent.time) + s_.waiting * (begin - earliest) +
+                   extra(child.arc, parent);
+      child.estimate = estimate(child);
       nodes_.push_back(child);
       push(static_cast<int>(nodes_.size()) - 1);
     }
@@ -267,12 +285,13 @@ bool SpaceTime::try_word(int index, const vehicle::ReedsSheppPath& word) {
   const double duration = forbid(from.pose, arcs);
   const bool root = from.parent < 0, rolls = !root && !arcs.empty() && arcs.front().gear() == from.arc.gear();
   const double starting = from.time + (arcs.empty() ? 0.0 : lag(arcs.front())) + (root ? 0.0 : lag(from.arc));
-  double passing = rolls ? from.time : starting;
+  const double earliest = rolls ? from.time : starting;
+  double passing = earliest;
   if (passing + duration < goal_free_) passing = std::max(goal_free_ - duration, starting);
   const double begin = depart(passing, starting, from.leave_by);
   if (begin == kInfinity) return false;
   const double arrival = begin + duration + (arcs.empty() ? 0.0 : lag(arcs.back()));
-  cost += from.cost + arrival - from.time;
+  cost += from.cost + (earliest - from.time) + s_.waiting * (begin - earliest) + arrival - begin;
   if (cost >= best_cost_) return false;
   best_cost_ = cost;
   best_arrival_ = arrival;
@@ -281,7 +300,8 @@ bool SpaceTime::try_word(int index, const vehicle::ReedsSheppPath& word) {
   return true;
 }
 
-void SpaceTime::shoot(int index) {
+// Tries the goal from a node; returns the time to it on free ground, s.
+double SpaceTime::shoot(int index, bool try_them) {
   std::array<vehicle::ReedsSheppPath, kWords> words;
   const double infinite = 1e3;  // a car without a reverse gear
   const vehicle::DrivingCosts costs{
@@ -290,12 +310,13 @@ void SpaceTime::shoot(int index) {
       .gear_change = (kGearChange * p_.radius) + top_ * top_ / p_.grid->acceleration};
   const geom::Pose2 from = node(index).pose;
   const int found = vehicle::reeds_shepp(from, p_.goal, p_.radius, costs, words);
-  for (int k = 0; k < found; ++k) {
+  for (int k = 0; k < found && try_them; ++k) {
     const auto& word = words[static_cast<std::size_t>(k)];
     const auto backs = [](const Arc& arc) { return arc.distance < 0.0; };
     if (p_.grid->reverse_speed <= 0.0 && std::any_of(word.arcs().begin(), word.arcs().end(), backs)) continue;
     if (try_word(index, word)) break;
   }
+  return found > 0 ? words[0].cost / top_ : 0.0;
 }
 
 Route SpaceTime::route() const {
@@ -324,7 +345,7 @@ bool SpaceTime::start() {
     if (span.begin <= 0.0) return false;
     root.leave_by = std::min(root.leave_by, span.begin);
   }
-  root.estimate = std::max(s_.heuristic_weight * root.left, goal_free_);
+  root.estimate = estimate(root);
   nodes_.push_back(root);
   if (root.left < kInfinity) push(0);
   return root.left < kInfinity;
@@ -341,15 +362,24 @@ SpaceTimeResult SpaceTime::run() {
       look(index);
       continue;
     }
-    const auto [known, fresh] = bins_.try_emplace(bin(node(index)), kInfinity);
-    if (node(index).cost >= known->second) continue;
-    known->second = node(index).cost;
+    if (!node(index).shot) {
+      Best& known = bins_[bin(node(index))];
+      if (node(index).cost >= known.cost && node(index).time >= known.time) continue;
+      known = {std::min(known.cost, node(index).cost), std::min(known.time, node(index).time)};
+      const bool near = node(index).left * top_ < kNear * p_.radius;
+      const bool had_none = best_node_ < 0;
+      const double left = shoot(index, ++shots <= kEagerShots || near || shots % kShotEvery == 0);
+      if (had_none && best_node_ >= 0) limit = std::min(limit, 2 * result.expansions + 50);
+      Node& here = node(index);
+      here.shot = true;
+      if (left > here.left) {
+        here.left = left;
+        here.estimate = estimate(here);
+        push(index);
+        continue;
+      }
+    }
     if (++result.expansions % 64 == 0 && p_.deadline.expired()) break;
-    const bool had_none = best_node_ < 0;
-    if (result.expansions <= kEagerShots || node(index).left * top_ < kNear * p_.radius ||
-        ++shots % kShotEvery == 0)
-      shoot(index);
-    if (had_none && best_node_ >= 0) limit = std::min(limit, 2 * result.expansions + 50);
     if (node(index).estimate >= best_cost_) continue;
     for (const Arc& move : moves_.arcs) add(index, move);
   }

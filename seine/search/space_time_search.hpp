@@ -23,7 +23,8 @@ struct SpaceTimeSettings {
   int forward = 5;           ///< curvatures tried forwards (odd)
   int backward = 5;          ///< and backwards
   double speed_share = 0.7;  ///< of the grid's speeds: what the car is assumed to drive at
-  double heuristic_weight = 1.5;
+  double waiting = 0.2;      ///< what a second of waiting costs against one of driving, ≤ 1
+  double heuristic_weight = 2.0;
   int max_expansions = 4000;
 };
 

@@ -56,8 +56,12 @@ SpeedGrid speed_grid(const vehicle::Model& model, const LatticeOptions& options)
 }
 
 SpeedLattice::SpeedLattice(Path path, const SpeedGrid& grid, const SweptFootprint& footprint,
-                           double start_speed)
-    : path_(std::move(path)), grid_(grid), corners_(footprint.corners()), boxes_(footprint.is_box()) {
+                           double start_speed, bool careful)
+    : path_(std::move(path)),
+      grid_(grid),
+      careful_(careful),
+      corners_(footprint.corners()),
+      boxes_(footprint.is_box()) {
   cut_stretches(start_speed);
   if (!drivable_) return;
   words_ = units_ / kWordBits + 1;
@@ -142,10 +146,22 @@ void SpeedLattice::limit_speeds() {
       allowed_[idx(b)] = std::clamp<double>(speed / level_speed, 1.0, grid_.levels);
     }
   }
+  if (careful_) slow_in_bends();
   // A car that starts moving may always brake, whatever the first bend allows.
   const int braking = std::min(start_level_ * start_level_, units_);
   for (int b = 0; b < braking; ++b)
     allowed_[idx(b)] = std::max(allowed_[idx(b)], std::ceil(std::sqrt(start_level_ * start_level_ - b)));
+}
+
+// A body point at a distance r from the rear axle moves sideways by κr for every metre driven, and a test
+// stands for half a level's units to either side.
+void SpeedLattice::slow_in_bends() {
+  constexpr double kSideways = 0.05;  // of r
+  for (double& level : allowed_) {
+    const double curvature = curvature_[static_cast<std::size_t>(&level - allowed_.data())];
+    const double drift = kSideways / (std::max(curvature, 1e-9) * grid_.unit);
+    if (level > 1.0) level = std::clamp(2.0 * (drift - kMoveSlack), 1.0, level);
+  }
 }
 
 void SpeedLattice::reach_speeds() {
@@ -210,8 +226,9 @@ void SpeedLattice::build_groups(const SweptFootprint& footprint) {
   groups_.reserve(expected);
   polygons_.reserve(expected * corners_);
   add_group(footprint, 0, 0, cursor);
-  for (int b = 1; b < units_; b += kGroupUnits)
-    add_group(footprint, b, std::min(b + kGroupUnits - 1, units_ - 1), cursor);
+  const int together = careful_ ? 1 : kGroupUnits;
+  for (int b = 1; b < units_; b += together)
+    add_group(footprint, b, std::min(b + together - 1, units_ - 1), cursor);
   if (units_ > 0) add_group(footprint, units_, units_, cursor);
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     if (g % kChunkGroups == 0) chunks_.push_back({{}, static_cast<int>(g), static_cast<int>(g)});

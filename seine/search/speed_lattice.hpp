@@ -44,7 +44,10 @@ SpeedGrid speed_grid(const vehicle::Model& model, const LatticeOptions& options 
 class SpeedLattice {
  public:
   /// @param start_speed signed m/s; a moving car first brakes for one step to the next lower lattice speed.
-  SpeedLattice(Path path, const SpeedGrid& grid, const SweptFootprint& footprint, double start_speed = 0.0);
+  /// @param careful  slow in bends and tested unit by unit: the ground the car is thought to cover is then
+  /// little more than it is, which is what narrow places need
+  SpeedLattice(Path path, const SpeedGrid& grid, const SweptFootprint& footprint, double start_speed = 0.0,
+               bool careful = false);
 
   /// A group of neighbouring units that is tested as one; the ends are groups of their own, so that cars that
   /// stand close do not seem to collide.
@@ -96,6 +99,7 @@ class SpeedLattice {
   void cut_stretches(double start_speed);
   bool add_stretch(double begin, double end, int gear, double slowest);
   void limit_speeds();
+  void slow_in_bends();
   void reach_speeds();
   void build_moves();
   void build_groups(const SweptFootprint& footprint);
@@ -105,6 +109,7 @@ class SpeedLattice {
   SpeedGrid grid_;
   bool drivable_ = true;
   bool stub_ = false;
+  bool careful_ = false;
   int units_ = 0, words_ = 0, start_level_ = 0;
   double start_speed_ = 0.0;
   std::vector<Stretch> stretches_;

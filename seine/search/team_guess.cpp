@@ -42,7 +42,8 @@ class Guess {
                                 std::span<const std::vector<geom::Vec2>> parked, int expansions) const;
   std::optional<Path> find_path_from(const world::Robot& who, const geom::Pose2& start,
                                      const PathOptions& options) const;
-  std::optional<Path> find_path_among(int robot, std::span<const Traffic> traffic, double pace) const;
+  std::optional<Path> find_path_among(int robot, std::span<const Traffic> traffic, double pace,
+                                      int patience) const;
   TeamSearch::Sources sources() const;
   Attempt new_attempt() const;
   bool find_first_ways(Attempt& attempt);
@@ -88,7 +89,8 @@ std::optional<Path> Guess::find_path(int robot, std::span<const Bump> bumps,
   return find_path_from(who, who.start, options);
 }
 
-std::optional<Path> Guess::find_path_among(int robot, std::span<const Traffic> traffic, double pace) const {
+std::optional<Path> Guess::find_path_among(int robot, std::span<const Traffic> traffic, double pace,
+                                           int patience) const {
   const world::Robot& who = scenario_.robots[idx(robot)];
   if (who.start_speed != 0.0) return std::nullopt;
   std::unique_ptr<SpaceTimePlanner>& planner = among_[idx(who.model)];
@@ -100,6 +102,7 @@ std::optional<Path> Guess::find_path_among(int robot, std::span<const Traffic> t
                        {.clearance = scenario_.margins.obstacle,
                         .extra = kExtra * model.length(),
                         .pace = pace,
+                        .patience = patience,
                         .deadline = options_.deadline});
 }
 
@@ -136,8 +139,8 @@ TeamSearch::Sources Guess::sources() const {
           [this](int robot, const Path& path, double s, double offset, double beside) {
             return side_steps_[idx(scenario_.robots[idx(robot)].model)].around(path, s, offset, beside);
           },
-          [this](int robot, std::span<const Traffic> traffic, double pace) {
-            return find_path_among(robot, traffic, pace);
+          [this](int robot, std::span<const Traffic> traffic, double pace, int patience) {
+            return find_path_among(robot, traffic, pace, patience);
           }};
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "seine/geom/convex.hpp"
 #include "seine/search/rescue.hpp"
 
 namespace seine::search {
@@ -208,20 +209,49 @@ TeamSearch::Placed TeamSearch::around_the_parked(int robot, const TeamState& sta
 
 // A path that a space-time search finds among the others, where the ways at hand lead nowhere or make it
 // late.
-TeamSearch::Placed TeamSearch::among(int robot, const TeamState& state, Placed best) {
+TeamSearch::Placed TeamSearch::among(int robot, const TeamState& state, Placed best, int patience) {
   if (!sources_.among || (best && !late(robot, best->arrival))) return best;
   const std::vector<Traffic> traffic = coordinator_.traffic(robot, state);
+  if (patience == 1) {
+    const Placed placed = around_the_resting(robot, state, traffic);
+    if (placed && (!best || placed->arrival < best->arrival)) best = placed;
+    if (best && !late(robot, best->arrival)) return best;
+  }
   for (const double pace : {0.7, 0.4}) {
     ++effort_.rescues;
-    std::optional<Path> path = sources_.among(robot, traffic, pace);
+    std::optional<Path> path = sources_.among(robot, traffic, pace, patience);
     if (!path) break;
-    const std::shared_ptr<Way> way = coordinator_.make_way(robot, std::move(*path));
-    if (!way || !keep(robot, way)) continue;
-    const Placed placed = coordinator_.place_on(robot, way, state, workspace_);
+    const Placed placed = place_along(robot, *path, state);
     if (placed && (!best || placed->arrival < best->arrival)) best = placed;
     if (placed) break;
   }
   return best;
+}
+
+// A path around where everything that moves comes to rest: all it may take beside it is patience.
+TeamSearch::Placed TeamSearch::around_the_resting(int robot, const TeamState& state,
+                                                  std::span<const Traffic> traffic) {
+  std::vector<std::vector<geom::Vec2>> parked;
+  for (const Traffic& other : traffic) {
+    const auto last = other.body->polygon(static_cast<int>(other.body->events().size()) - 1);
+    parked.push_back(geom::convex_hull({last.begin(), last.end()}));  // corners may fall together
+  }
+  ++effort_.paths;
+  const std::optional<Path> path = sources_.search(robot, {}, parked, options_.parked_expansions);
+  return path ? place_along(robot, *path, state) : nullptr;
+}
+
+// On a new path, carefully if it must be.
+TeamSearch::Placed TeamSearch::place_along(int robot, const Path& path, const TeamState& state) {
+  for (const bool careful : {false, true}) {
+    const std::shared_ptr<Way> way = coordinator_.make_way(robot, path, careful);
+    if (!way || !coordinator_.finish_way(*way)) continue;
+    Placed placed = coordinator_.place_on(robot, way, state, workspace_);
+    if (!placed) continue;
+    keep(robot, way);
+    return placed;
+  }
+  return nullptr;
 }
 
 // Few cars: all of them once more, one after the other among those before. Many: each that has no motion
@@ -231,7 +261,9 @@ bool TeamSearch::rescue(TeamState& state, const TeamState& given, const Deadline
   constexpr std::size_t kFew = 3;
   Rescue rescue(
       coordinator_,
-      [this](int robot, const TeamState& others, Placed best) { return among(robot, others, best); },
+      [this](int robot, const TeamState& others, Placed best, int patience) {
+        return among(robot, others, best, patience);
+      },
       workspace_);
   std::vector<int> free;
   for (int robot = 0; robot < coordinator_.robots(); ++robot)

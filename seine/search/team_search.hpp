@@ -49,7 +49,8 @@ class TeamSearch {
     std::function<std::optional<Path>(int robot, const Path& path, double s, double offset, double beside)>
         side_step;
     /// A path that can be driven in time among the traffic, at `pace` of the car's speed where it drives.
-    std::function<std::optional<Path>(int robot, std::span<const Traffic> traffic, double pace)> among;
+    std::function<std::optional<Path>(int robot, std::span<const Traffic> traffic, double pace, int patience)>
+        among;
   };
 
   TeamSearch(Coordinator& coordinator, Sources sources, const TeamSearchOptions& options, std::uint64_t seed);
@@ -76,13 +77,15 @@ class TeamSearch {
                    double latest = std::numeric_limits<double>::infinity());
   Placed detour(int robot, const TeamState& state, Placed best, int tries);
   Placed around_the_parked(int robot, const TeamState& state, bool goals);
-  Placed among(int robot, const TeamState& state, Placed best);
+  Placed among(int robot, const TeamState& state, Placed best, int patience);
+  Placed around_the_resting(int robot, const TeamState& state, std::span<const Traffic> traffic);
   bool rescue(TeamState& state, const TeamState& given, const Deadline& deadline);
   bool may_search() const;
   Placed place_somehow(int robot, const TeamState& state);
   void repair(TeamState& state, const Deadline& deadline);
   void shuffle(std::vector<int>& list, int from);
   bool keep(int robot, const std::shared_ptr<Way>& way);
+  Placed place_along(int robot, const Path& path, const TeamState& state);
   std::shared_ptr<Way> keep_path(int robot, std::optional<Path> path);
   bool late(int robot, double arrival) const;
   WayPtr fastest_way(int robot) const;

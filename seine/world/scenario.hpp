@@ -38,8 +38,8 @@ struct Obstacle {
   std::vector<Waypoint> motion;                             ///< times strictly increasing
 };
 
-/// Whether the obstacle is in one place from t = 0 on, with or without a `motion`: it is then an obstacle like
-/// any static one, which paths lead round.
+/// Whether the obstacle is in one place from t = 0 on, with or without a `motion`: it is then an obstacle
+/// like any static one, which paths lead round.
 inline bool stands_still(const Obstacle& obstacle) {
   const auto& motion = obstacle.motion;
   for (std::size_t i = 0; i + 1 < motion.size(); ++i) {
