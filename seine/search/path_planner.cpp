@@ -9,7 +9,6 @@
 
 #include "seine/geom/convex.hpp"
 #include "seine/search/cost_to_go_cache.hpp"
-#include "seine/search/drive_time.hpp"
 #include "seine/search/gates.hpp"
 #include "seine/search/hybrid_astar.hpp"
 #include "seine/search/quickest.hpp"
@@ -359,7 +358,8 @@ std::optional<Route> PathPlanner::Impl::plan(const geom::Pose2& start, const geo
   // The ladder counts metres and likes long stretches; for a goal close by seconds decide.
   if (!options.short_moves || !options.bumps.empty()) return route;
   std::optional<Route> move = short_move(start, goal, checker(start, goal, options));
-  if (move && (!route || drive_time(move->arcs, model) < kQuicker * drive_time(route->arcs, model)))
+  if (move &&
+      (!route || smooth_drive_time(move->arcs, model) < kQuicker * smooth_drive_time(route->arcs, model)))
     return move;
   return route;
 }

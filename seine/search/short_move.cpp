@@ -16,6 +16,7 @@ using vehicle::Arc;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kFurthest = 2.0;    // car lengths
+constexpr double kJerkShare = 0.15;  // of v / a: what a stretch takes longer for its smooth ends
 constexpr double kSamePlace = 9e-5;  // m, and rad of the heading: the certificate grants 1e-4
 constexpr double kNoLength = 1e-9;   // m
 
@@ -63,7 +64,7 @@ class Choice {
     const int found = vehicle::reeds_shepp(start_, goal_, radius, costs, words);
     for (std::size_t k = 0; k < static_cast<std::size_t>(found); ++k) {
       if (shortest_stretch(words[k].arcs()) < kLeastStretch * checker_.model().length()) continue;
-      const double time = drive_time(words[k].arcs(), checker_.model());
+      const double time = smooth_drive_time(words[k].arcs(), checker_.model());
       if (!(time < quickest_) || sweep(checker_, start_, room_, words[k].arcs()) < 0.0) continue;
       quickest_ = time;
       const auto arcs = words[k].arcs();
@@ -81,12 +82,25 @@ class Choice {
 
 }  // namespace
 
+double smooth_drive_time(std::span<const Arc> arcs, const vehicle::Model& model) {
+  double time = drive_time(arcs, model), stretch = 0.0;
+  for (std::size_t i = 0; i < arcs.size(); ++i) {
+    stretch += std::abs(arcs[i].distance);
+    if (i + 1 < arcs.size() && arcs[i + 1].gear() == arcs[i].gear()) continue;
+    const double top = arcs[i].gear() > 0 ? model.limits.speed : model.limits.reverse_speed;
+    const double acceleration = model.limits.acceleration;
+    time += kJerkShare * std::min(top / acceleration, std::sqrt(stretch / acceleration));
+    stretch = 0.0;
+  }
+  return time;
+}
+
 std::optional<Route> short_move(const geom::Pose2& start, const geom::Pose2& goal,
                                 const FootprintChecker& checker) {
   const vehicle::Model& model = checker.model();
   if (geom::norm(goal.position() - start.position()) > kFurthest * model.length()) return std::nullopt;
   if (std::optional<Route> move = straight_move(start, goal);
-      move && drive_time(move->arcs, model) < kInfinity &&
+      move && smooth_drive_time(move->arcs, model) < kInfinity &&
       sweep(checker, start, checker.room(start), move->arcs) >= 0.0)
     return move;
 

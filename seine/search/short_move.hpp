@@ -1,11 +1,16 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "seine/search/motion.hpp"
 #include "seine/search/route.hpp"
 
 namespace seine::search {
+
+/// `drive_time` and what each stretch in one gear takes longer for its smooth ends: of two moves with
+/// different numbers of stretches neither looks too quick.
+double smooth_drive_time(std::span<const vehicle::Arc> arcs, const vehicle::Model& model);
 
 /// The quickest clear move between two poses that are close together: straight on or back where that meets
 /// the goal as nearly as the certificate grants (the route then ends there and not exactly at the goal), else
