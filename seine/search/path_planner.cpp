@@ -19,10 +19,13 @@ namespace {
 
 // All lengths scale with the car. Measured reasons: docs/front-end-paths.md.
 constexpr double kSlack = 0.025;       // car lengths, on top of the clearance while searching
+constexpr double kLeastSlack = 0.1;    // of the slack: rungs with no more get along with what the ends have
 constexpr double kEaseRadius = 1.5;    // car lengths around a tight start or goal in which it has less slack
 constexpr double kShortStretch = 0.3;  // car lengths: stretches in one gear below this are avoided
-constexpr double kTouch = 1e-9;        // m: rounding of a start that stands exactly at its clearance
 constexpr double kQuicker = 0.9;       // a short move by words must save a tenth of the time
+// m: an end with less room than this touches: it has none to turn in. The car may then come nearer by what is
+// granted of the clearance; the certificate grants half as much again.
+constexpr double kTouch = 1e-4, kGranted = 1e-4;
 constexpr double kDiscCell =
     0.35;  // of the car's width: the side of a heuristic cell, small enough that walls stay tight
 
@@ -69,6 +72,8 @@ struct Rung {
   // Where this rung finds nothing, ways through the middle of narrow places are tried that leave at most so
   // much room, car lengths.
   double gates_after = 0.0;
+  // … and single words without slack, wide ones too: along walls that are touched.
+  bool words_after = false;
 };
 constexpr Rung parking(double share, double gates_after = 0.0) {
   return {.radius = 1.02,
@@ -87,7 +92,7 @@ constexpr Rung parking(double share, double gates_after = 0.0) {
 constexpr Rung kLadder[] = {
     {},
     // Buildings where the shortest way turns out to be too narrow.
-    {.share = 0.03, .gaps = Gaps::wary, .gates_after = 0.2 * kSlack},
+    {.share = 0.03, .gaps = Gaps::wary, .gates_after = 0.2 * kSlack, .words_after = true},
     // Parking, narrow doors.
     parking(0.05, 1.0),
     // Slots between two cars: forth and back as far as it goes.
@@ -149,6 +154,7 @@ struct PathPlanner::Impl {
   struct Ends {
     geom::Pose2 start, goal;
     double room_start, room_goal;
+    bool touch() const { return std::min(room_start, room_goal) < 2.0 * kTouch; }
   };
   std::optional<Route> plan(const geom::Pose2& start, const geom::Pose2& goal, const PathOptions& options);
   std::optional<Route> through_gates(const Ends& ends, double most_room, const PathOptions& options,
@@ -186,6 +192,8 @@ struct PathPlanner::Impl {
 FootprintChecker PathPlanner::Impl::checker(const geom::Pose2& start, const geom::Pose2& goal,
                                             const PathOptions& options) const {
   FootprintChecker checker(map, &distances, model, options.clearance);
+  if (std::min(checker.exact_room(start), checker.exact_room(goal)) < kTouch)
+    checker = FootprintChecker(map, &distances, model, options.clearance - kGranted);
   const geom::Convex body{model.footprint};
   const geom::Convex at_start = geom::placed(body, start), at_goal = geom::placed(body, goal);
   const geom::Box start_box = at_start.box(), goal_box = at_goal.box();
@@ -254,7 +262,9 @@ LatticeResult PathPlanner::Impl::climb(const Rung& rung, const FootprintChecker&
 FootprintChecker PathPlanner::Impl::slackened(const FootprintChecker& free, const Ends& ends,
                                               double share) const {
   FootprintChecker checker = free;
-  const double slack = share * kSlack * length;
+  double slack = share * kSlack * length;
+  if (share <= kLeastSlack && ends.touch())
+    slack = std::min(slack, 0.5 * std::min(ends.room_start, ends.room_goal));
   checker.set_slack(slack);
   checker.ease_slack(ends.start.position(), kEaseRadius * length, std::min(slack, 0.5 * ends.room_start));
   checker.ease_slack(ends.goal.position(), kEaseRadius * length, std::min(slack, 0.5 * ends.room_goal));
@@ -322,7 +332,7 @@ std::optional<Route> PathPlanner::Impl::ladder(const geom::Pose2& start, const g
                                                const PathOptions& options, int& left, bool gates) {
   const FootprintChecker free = checker(start, goal, options);
   const Ends ends{start, goal, free.exact_room(start), free.exact_room(goal)};
-  if (std::min(ends.room_start, ends.room_goal) < -kTouch) return std::nullopt;
+  if (std::min(ends.room_start, ends.room_goal) < 0.0) return std::nullopt;
 
   // Whether there may be an end that can only be left or reached by moves shorter than a step.
   bool slot = std::min(ends.room_start, ends.room_goal) < kTightSlot * length;
@@ -343,6 +353,11 @@ std::optional<Route> PathPlanner::Impl::ladder(const geom::Pose2& start, const g
       return route;
     }
     left -= result.expansions;
+    if (rung.words_after && ends.touch()) {
+      Route route{start, goal, {}};
+      if (take_quickest_word(route, slackened(free, ends, 0.0), rung.radius / model.max_curvature()))
+        return route;
+    }
     slot = slot || result.exhausted;
     if (gates && rung.gates_after > 0.0)
       if (std::optional<Route> route = through_gates(ends, rung.gates_after * length, options, left))

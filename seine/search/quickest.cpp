@@ -12,7 +12,7 @@ namespace {
 using vehicle::Arc;
 
 // Wider turns are longer; they pay where bends are taken slowly or the wheel turns slowly.
-constexpr double kRadii[] = {1.0, 1.5, 2.2, 3.3, 5.0};
+constexpr double kRadii[] = {1.0, 1.5, 2.2, 3.3, 5.0, 10.0, 25.0, 60.0};
 constexpr int kWords = 8;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // A way must be quicker by this share to be taken for another: estimates are no better.
@@ -56,13 +56,14 @@ bool quicker(const Route& route, const Route& than, const vehicle::Model& model)
   return trouble(route.arcs, model) < (1.0 - kWorthwhile) * trouble(than.arcs, model);
 }
 
-void take_quickest_word(Route& route, const FootprintChecker& checker, double radius) {
+bool take_quickest_word(Route& route, const FootprintChecker& checker, double radius) {
   const vehicle::Model& model = checker.model();
   const vehicle::Limits& limits = model.limits;
   const bool backs = limits.reverse_speed > 0.0;
   const double slower = backs ? std::max(1.0, limits.speed / limits.reverse_speed) : kInfinity;
   const double room = checker.room(route.start);
-  double best = (1.0 - kWorthwhile) * trouble(route.arcs, model);
+  double best = route.arcs.empty() ? kInfinity : (1.0 - kWorthwhile) * trouble(route.arcs, model);
+  bool taken = false;
   const auto look = [&](double turn, const vehicle::DrivingCosts& costs) {
     std::array<vehicle::ReedsSheppPath, kWords> words;
     const int found = vehicle::reeds_shepp(route.start, route.goal, turn, costs, words);
@@ -70,7 +71,7 @@ void take_quickest_word(Route& route, const FootprintChecker& checker, double ra
       if (shortest_stretch(words[k].arcs()) < kTooShort * model.length()) continue;
       const double time = trouble(words[k].arcs(), model);
       if (!(time < best) || sweep(checker, route.start, room, words[k].arcs()) < 0.0) continue;
-      best = time;
+      best = time, taken = true;
       route.arcs.assign(words[k].arcs().begin(), words[k].arcs().end());
     }
   };
@@ -81,6 +82,7 @@ void take_quickest_word(Route& route, const FootprintChecker& checker, double ra
     look(turn, {.reverse = kInfinity});
     if (backs) look(turn, {.reverse = 1.0, .forward = kInfinity});
   }
+  return taken;
 }
 
 }  // namespace seine::search
