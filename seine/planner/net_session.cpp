@@ -8,7 +8,7 @@
 #include "seine/net/catch_rules.hpp"
 #include "seine/planner/formation_guess.hpp"
 #include "seine/planner/moving_bodies.hpp"
-#include "seine/planner/net_faults.hpp"
+#include "seine/planner/faults.hpp"
 #include "seine/planner/previous_fit.hpp"
 #include "seine/world/check.hpp"
 

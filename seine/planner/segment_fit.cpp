@@ -179,9 +179,10 @@ trajopt::SegmentGuess fit_stretch(const TimedPath& guess, const Stretch& stretch
   const auto pieces_for = [](double ratio, int least) {
     return std::clamp(static_cast<int>(std::lround(ratio)), least, traj::UniformMinco::kMaxPieces);
   };
-  const int pieces =
-      pieces_for(length / (options.piece_length * model.length()) + turning.heading / options.piece_turn, 3);
-  const int times = pieces_for(segment.duration / (options.piece_duration * t_a), 4);
+  const double piece =
+      std::max(options.piece_length * model.length(), options.piece_stopping * model.limits.speed * t_a);
+  const int pieces = pieces_for(options.finer * (length / piece + turning.heading / options.piece_turn), 3);
+  const int times = pieces_for(options.finer * segment.duration / (options.piece_duration * t_a), 4);
   for (int j = 0; j <= pieces; ++j)
     segment.points.push_back(search::pose_at(guess.path, stretch.from + length * j / pieces).position());
   for (int j = 0; j <= times; ++j) {

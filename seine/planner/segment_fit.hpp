@@ -10,8 +10,12 @@ namespace seine::planner {
 
 /// How a guess is cut into polynomial pieces and how far its corridor looks.
 struct FitOptions {
-  double piece_length = 1.6;  ///< of the curve, car lengths
-  double piece_turn = 0.8;    ///< rad of heading change that deserve a piece of their own
+  double piece_length = 1.6;  ///< of the curve, car lengths …
+  /// … or this times v_max²/a_max, where that is longer: where |p'| is uneven by a share δ along a piece, the
+  /// car brakes and accelerates by about δ v²/piece; and the samples in time must see every piece.
+  double piece_stopping = 0.46;
+  double piece_turn = 0.8;  ///< rad of heading change that deserve a piece of their own
+  double finer = 1.0;       ///< times as many pieces of the curve and of the progress
   /// Car lengths, or lengths of a path that is shorter than a car: shorter stretches in one gear are left
   /// out.
   double shortest_stretch = 0.05;

@@ -6,7 +6,6 @@
 
 #include "seine/base/error.hpp"
 #include "seine/certify/certificate.hpp"
-#include "seine/planner/arc_plan.hpp"
 #include "seine/planner/groups.hpp"
 #include "seine/planner/moving_bodies.hpp"
 #include "seine/planner/net_session.hpp"
@@ -17,16 +16,24 @@ namespace seine::planner {
 namespace {
 
 constexpr double kGuessShare = 0.7;  // of the time that is left
-constexpr int kFailedGuesses = 2;    // a team that two guesses could not solve is given up
+// A team that so many guesses could not solve is given up: without a deadline, and with one.
+constexpr int kFailedGuesses = 2, kMostFailedGuesses = 40;
 constexpr int kPolishRounds = 8;
 constexpr int kStuckRounds = 3, kHopelessRounds = 6;
-constexpr int kAttempts = 8;
-constexpr double kTick = 0.0667;    // of the time a car takes to drive its own length
-constexpr double kCloseGap = 0.25;  // car lengths: cars that come this close are optimised jointly
+constexpr double kHardlySlower = 1.03;  // a plan slowed by so little is not worth another attempt …
+constexpr int kBetterAttempts = 2;      // … others are worth so many
+constexpr double kTick = 0.0667;        // of the time a car takes to drive its own length
+constexpr double kCloseGap = 0.25;      // car lengths: cars that come this close are optimised jointly
 constexpr double kPenaltyRaise = 3.0, kMostPenalty = 100.0;
 constexpr double kTightenRaise = 0.005, kMostTighten = 0.03;
 constexpr double kClearanceRaise = 0.01;  // car lengths, on top of what was missed
 constexpr int kLargeGroup = 6;            // a group this large is worth all threads
+
+// With nobody to give way to and nothing to dodge, one search for a way is like the next.
+bool searches_differ(const world::Scenario& scenario) {
+  return scenario.robots.size() > 1 ||
+         std::ranges::any_of(scenario.obstacles, [](const auto& o) { return !o.motion.empty(); });
+}
 
 }  // namespace
 
@@ -35,7 +42,8 @@ Session::Session(const world::Scenario& scenario, const Options& options)
       options_(options),
       deadline_(options.deadline_s),
       workers_(options.threads),
-      map_(scenario) {}
+      map_(scenario),
+      asked_(scenario) {}
 
 PlanResult Session::run() {
   const auto complaints = world::check(scenario_, map_);
@@ -44,22 +52,45 @@ PlanResult Session::run() {
         complaints.size() > 1 ? " (and " + std::to_string(complaints.size() - 1) + " more)" : "";
     throw InputError(scenario_.name + ": " + complaints.front() + more);
   }
-  int failed_guesses = 0;
-  for (int attempt = 0; attempt < kAttempts && !deadline_.expired(); ++attempt) {
-    // Every guess gets two tries: a free one and a gentle one.
-    const bool gently = attempt % 2 == 1;
-    if (!gently && !guess(static_cast<std::uint64_t>(attempt / 2)) && ++failed_guesses == kFailedGuesses)
-      break;
-    if (!guess_.complete) continue;
+  climb();
+  return finish();
+}
+
+// The ladder of attempts, until one holds.
+void Session::climb() {
+  const bool timed = std::isfinite(options_.deadline_s);
+  const int most_failed = timed && searches_differ(scenario_) ? kMostFailedGuesses : kFailedGuesses;
+  int failed_guesses = 0, better = 0;
+  for (int rung = 0; rung < (timed ? kMostRungs : kRungs) && !deadline_.expired(); ++rung) {
+    const Attempt now = attempt(rung);
+    if (!have_guess(now)) {
+      // That there is no way with more room says nothing.
+      if (now.roomier == 0.0 && !now.gently && now.finer == 1.0 && ++failed_guesses == most_failed) break;
+      continue;
+    }
     if (deadline_.expired()) break;
-    prepare();
-    optimise(gently);
+    ++attempts_;
+    prepare(now);
+    optimise(now.gently);
     if (deadline_.expired()) break;
     polish();
-    if (result_.certified || (gently && stop_and_steer())) break;
+    if (result_.certified) break;
+    slow_down();
+    if (now.gently) stop_and_steer();
+    if (slowed_ && (slowed_by_ < kHardlySlower || ++better > kBetterAttempts)) break;
     ++result_.repairs;
   }
-  return finish();
+  settle();
+}
+
+// Guesses are kept for the attempts that begin from the same one.
+bool Session::have_guess(const Attempt& now) {
+  if (guessed_ && guessed_->guess == now.guess && guessed_->roomier == now.roomier) return guess_.complete;
+  asked_.margins = scenario_.margins;
+  const double room = now.roomier * scenario_.models.front().length();
+  asked_.margins.robot += room, asked_.margins.obstacle += room;
+  guessed_ = now;
+  return guess(now.guess);
 }
 
 bool Session::guess(std::uint64_t attempt) {
@@ -72,30 +103,19 @@ bool Session::guess(std::uint64_t attempt) {
   options.seed = options_.seed + attempt;
   options.quickest = attempt == 0;  // where it failed, the way the search found first may do
   options.extra_robot_clearance = 0.01 * static_cast<double>(attempt) * scenario_.models.front().length();
-  guess_ = search::guess_team(scenario_, map_, options);
+  guess_ = search::guess_team(asked_, map_, options);
   result_.times.guess += watch.seconds();
-  if (!guess_.complete)
-    result_.reason =
-        options.deadline.expired() ? "no guess for the whole team before the deadline" : guess_.reason;
+  // Of a search that was cut short nothing is known; the reason of an earlier one stands.
+  if (!guess_.complete && attempts_ == 0) {
+    if (!options.deadline.expired())
+      result_.reason = guess_.reason;
+    else if (attempt == 0)
+      result_.reason = "no guess for the whole team before the deadline";
+  }
   return guess_.complete;
 }
 
-// Where the optimiser does not get a car through its way, the car can still drive the way as it was found.
-bool Session::stop_and_steer() {
-  if (scenario_.robots.size() != 1 || deadline_.expired()) return false;
-  const world::Robot& robot = scenario_.robots[0];
-  traj::RobotTrajectory drive =
-      drive_arcs(guess_.robots[0].path, scenario_.model_of(robot), robot.start_speed);
-  if (drive.segments.empty()) return false;
-  std::swap(result_.plan.robots[0], drive);
-  const certify::Certificate fault = result_.certificate;
-  if (certify()) return true;
-  std::swap(result_.plan.robots[0], drive);
-  result_.certificate = fault;
-  return false;
-}
-
-void Session::prepare() {
+void Session::prepare(const Attempt& now) {
   const Stopwatch watch;
   const std::size_t count = scenario_.robots.size();
   tasks_.assign(count, {});
@@ -107,7 +127,7 @@ void Session::prepare() {
     if (given_[i])
       tasks_[i].model = scenario_.model_of(robot);
     else
-      tasks_[i] = fit(guess_.robots[i], scenario_, scenario_.robots[i], map_);
+      tasks_[i] = fit(guess_.robots[i], asked_, asked_.robots[i], map_, {.finer = now.finer});
   });
   settings_ = {};
   units_ = trajopt::units_of(tasks_);
@@ -117,8 +137,8 @@ void Session::prepare() {
   ticks_ = static_cast<int>(std::ceil(1.2 * last / tick_)) + 80;
   bodies_.clear();
   for (const trajopt::RobotTask& task : tasks_)
-    bodies_.push_back(car_body(task.model, scenario_.margins.robot, units_, settings_.clearance_slack));
-  for (trajopt::Body& body : moving_obstacles(scenario_, units_, settings_.clearance_slack, tick_, ticks_))
+    bodies_.push_back(car_body(task.model, asked_.margins.robot, units_, settings_.clearance_slack));
+  for (trajopt::Body& body : moving_obstacles(asked_, units_, settings_.clearance_slack, tick_, ticks_))
     bodies_.push_back(std::move(body));
   workers_.run(static_cast<int>(count), [&](int k) {
     const auto i = static_cast<std::size_t>(k);
@@ -176,7 +196,7 @@ void Session::solve_groups(const std::vector<Group>& groups, Start start) {
 trajopt::Task Session::task_for(const Group& group) const {
   trajopt::Task task;
   task.units = units_, task.tick = tick_, task.ticks = ticks_;
-  task.robot_clearance = scenario_.margins.robot;
+  task.robot_clearance = asked_.margins.robot;
   std::vector<std::size_t> others;
   for (std::size_t body = 0; body < bodies_.size(); ++body)
     if (!std::binary_search(group.begin(), group.end(), static_cast<int>(body))) others.push_back(body);
@@ -240,6 +260,7 @@ bool Session::certify() {
   result_.certificate = certify::certify(scenario_, map_, result_.plan, options);
   result_.certified = result_.certificate.holds;
   result_.times.certify += watch.seconds();
+  if (!result_.certified) keep_nearest();
   return result_.certified;
 }
 
@@ -316,19 +337,6 @@ std::vector<Session::Group> Session::raise_demands(int round) {
 
 void Session::report(const char* stage, double fraction) const {
   if (options_.progress) options_.progress({stage, fraction});
-}
-
-PlanResult Session::finish() {
-  if (result_.certified) {
-    result_.reason.clear();
-    result_.quality = measure(result_.plan);
-  } else if (deadline_.expired() && guess_.complete) {
-    result_.reason = "no certified plan before the deadline";
-  } else if (!result_.certificate.violations.empty()) {
-    result_.reason = result_.certificate.violations.front().text;
-  }
-  result_.times.compute = watch_.seconds();
-  return std::move(result_);
 }
 
 PlanResult plan(const world::Scenario& scenario, const Options& options) {

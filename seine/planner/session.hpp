@@ -1,11 +1,15 @@
 #pragma once
 
+#include <limits>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "seine/base/workers.hpp"
+#include "seine/planner/attempts.hpp"
 #include "seine/planner/planner.hpp"
 #include "seine/planner/segment_fit.hpp"
+#include "seine/planner/slower.hpp"
 #include "seine/search/team_guess.hpp"
 #include "seine/trajopt/joint_problem.hpp"
 #include "seine/world/static_map.hpp"
@@ -31,9 +35,10 @@ class Session {
     solution,      // from where the cars are now, stiff
   };
 
+  void climb();
+  bool have_guess(const Attempt& now);
   bool guess(std::uint64_t attempt);
-  bool stop_and_steer();
-  void prepare();
+  void prepare(const Attempt& now);
   void place_bodies();
   void optimise(bool gently);
   void solve_groups(const std::vector<Group>& groups, Start start);
@@ -42,6 +47,11 @@ class Session {
   std::vector<Group> close_groups(double gap) const;
   std::vector<Group> movers(std::vector<Group> groups) const;
   bool certify();
+  void keep_nearest();
+  void slow_down();
+  void stop_and_steer();
+  void settle();
+  std::string reason_to_give_up() const;
   void polish();
   std::vector<Group> raise_demands(int round);
   double& extra(std::size_t robot, std::size_t body) { return extra_[robot * bodies_.size() + body]; }
@@ -54,6 +64,7 @@ class Session {
   Deadline deadline_;
   Workers workers_;
   world::StaticMap map_;
+  world::Scenario asked_;  // the question with the margins of the attempt at hand
   trajopt::Settings settings_;
   search::TeamGuess guess_;
 
@@ -69,6 +80,15 @@ class Session {
   std::vector<double> extra_;             // m, robots × bodies: clearance asked on top of the scenario's
   std::vector<trajopt::Demand> demands_;  // per robot
   PlanResult result_;
+
+  int attempts_ = 0;                                          // from a guess to a certificate
+  std::optional<Attempt> guessed_;                            // what guess_ belongs to
+  double nearest_ = std::numeric_limits<double>::infinity();  // severity of the plan that came nearest …
+  std::string fault_;                                         // … and what the certificate said of it
+  std::optional<Slowed> slowable_;  // of the attempt at hand: over its limits only, with its certificate
+  double slowable_end_ = 0.0;       // s, its end when it is slowed
+  std::optional<Slowed> slowed_;    // certified
+  double slowed_by_ = 1.0;
 };
 
 }  // namespace seine::planner

@@ -1,4 +1,4 @@
-#include "seine/planner/net_faults.hpp"
+#include "seine/planner/faults.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -38,9 +38,14 @@ double severity_of(const certify::Violation& v) {
 }  // namespace
 
 double severity(const certify::Certificate& certificate) {
-  double worst = 0.0;
-  for (const certify::Violation& v : certificate.violations) worst = std::max(worst, severity_of(v));
-  return worst;
+  const certify::Violation* v = worst(certificate);
+  return v == nullptr ? 0.0 : severity_of(*v);
+}
+
+const certify::Violation* worst(const certify::Certificate& certificate) {
+  const auto& all = certificate.violations;
+  const auto found = std::ranges::max_element(all, {}, severity_of);
+  return found == all.end() ? nullptr : &*found;
 }
 
 }  // namespace seine::planner
