@@ -4,12 +4,10 @@
 #include <cmath>
 #include <iterator>
 
-#include "seine/base/error.hpp"
 #include "seine/certify/certificate.hpp"
 #include "seine/planner/arc_plan.hpp"
 #include "seine/planner/groups.hpp"
 #include "seine/planner/moving_bodies.hpp"
-#include "seine/planner/net_session.hpp"
 #include "seine/planner/straight_hop.hpp"
 #include "seine/world/check.hpp"
 
@@ -38,18 +36,14 @@ Session::Session(const world::Scenario& scenario, const Options& options)
       map_(scenario) {}
 
 PlanResult Session::run() {
-  const auto complaints = world::check(scenario_, map_);
-  if (!complaints.empty()) {
-    const std::string more =
-        complaints.size() > 1 ? " (and " + std::to_string(complaints.size() - 1) + " more)" : "";
-    throw InputError(scenario_.name + ": " + complaints.front() + more);
-  }
+  world::expect_sound(scenario_, map_);
   int failed_guesses = 0;
   for (int attempt = 0; attempt < kAttempts && !deadline_.expired(); ++attempt) {
     // Every guess gets two tries: a free one and a gentle one.
     const bool gently = attempt % 2 == 1;
     if (!gently && !guess(static_cast<std::uint64_t>(attempt / 2)) && ++failed_guesses == kFailedGuesses)
       break;
+    if (guess_.impossible) break;
     if (!guess_.complete) continue;
     if (deadline_.expired()) break;
     prepare();
@@ -75,8 +69,9 @@ bool Session::guess(std::uint64_t attempt) {
   guess_ = search::guess_team(scenario_, map_, options);
   result_.times.guess += watch.seconds();
   if (!guess_.complete)
-    result_.reason =
-        options.deadline.expired() ? "no guess for the whole team before the deadline" : guess_.reason;
+    result_.reason = options.deadline.expired() && !guess_.impossible
+                         ? "no guess for the whole team before the deadline"
+                         : guess_.reason;
   return guess_.complete;
 }
 
@@ -329,11 +324,6 @@ PlanResult Session::finish() {
   }
   result_.times.compute = watch_.seconds();
   return std::move(result_);
-}
-
-PlanResult plan(const world::Scenario& scenario, const Options& options) {
-  if (scenario.net) return NetSession(scenario, options).run();
-  return Session(scenario, options).run();
 }
 
 }  // namespace seine::planner
