@@ -147,6 +147,21 @@ class Flood {
   long taken_ = 0, wide_ = 0;
 };
 
+/// Uphill in distance for a coarse cell or so: a way on those runs beside the middle of a passage.
+Cell climbed(Grid& grid, Cell at) {
+  for (int steps = 0; steps < kFiner; ++steps) {
+    Cell best = at;
+    for (int dy = -1; dy <= 1; ++dy)
+      for (int dx = -1; dx <= 1; ++dx) {
+        const Cell next{at.column + dx, at.row + dy};
+        if (grid.inside(next) && grid.at(next) > grid.at(best)) best = next;
+      }
+    if (best == at) return at;
+    at = best;
+  }
+  return at;
+}
+
 /// Looks at the narrowest place of a way ever more closely, between the points where the way enters and
 /// leaves a window around it. Returns the distance there, m, and moves `at` to its middle.
 double zoom(const world::StaticMap& map, std::vector<Vec2> way, double cell, double cap, Vec2& at) {
@@ -164,7 +179,7 @@ double zoom(const world::StaticMap& map, std::vector<Vec2> way, double cell, dou
     while (last + 1 != way.end() && close(*(last + 1))) ++last;
     cell /= kFiner;
     Grid grid(map, window, cell, cap);
-    Flood flood(grid, grid.nearest(*first), grid.nearest(*last));
+    Flood flood(grid, climbed(grid, grid.nearest(*first)), climbed(grid, grid.nearest(*last)));
     while (!flood.step()) {
     }
     distance = flood.narrowest().distance;
