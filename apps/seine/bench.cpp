@@ -171,7 +171,7 @@ double best_makespan(const world::Scenario& scenario, planner::Options options, 
 }
 
 void fill(Row& row, const planner::PlanResult& result) {
-  row.status = result.certified ? "certified" : "no";
+  row.status = result.certified ? "certified" : result.impossible ? "impossible" : "no";
   row.reason = result.reason;
   row.compute = result.times.compute;
   row.guess = result.times.guess;

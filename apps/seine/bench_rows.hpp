@@ -15,7 +15,7 @@ struct Row {
 
   std::string group;     ///< the line of the table it counts in
   std::string instance;  ///< unique within the group
-  std::string status;    ///< certified, no, refused (the task is wrong in itself)
+  std::string status;    ///< certified, no, impossible (proved), refused (the task is wrong in itself)
   std::string reason;
   double robots = kNone;
   double compute = kNone, guess = kNone, corridor = kNone, optimise = kNone, certify = kNone;  ///< s

@@ -102,7 +102,8 @@ std::string table(const std::vector<Row>& rows, const std::vector<Row>& referenc
     }
     int shown = 0;
     for (const Row& row : rows) {
-      if (row.group == group && row.status == "no" && shown++ < kFailuresShown) {
+      if (row.group == group && (row.status == "no" || row.status == "impossible") &&
+          shown++ < kFailuresShown) {
         text += "    no plan for " + row.instance + ": " + row.reason + "\n";
       }
     }

@@ -10,14 +10,13 @@
 #include "seine/base/deadline.hpp"
 #include "seine/io/plan_file.hpp"
 #include "seine/io/report.hpp"
-#include "seine/io/scenario_file.hpp"
 #include "seine/world/static_map.hpp"
 
 namespace seine::app {
 namespace {
 
 struct Arguments {
-  std::string scenario;
+  ScenarioChoice scenario;
   std::string plan;
   double deadline = 60.0;
   int threads = 0;
@@ -30,7 +29,7 @@ Example
   seine certify team.yaml plan.json)";
 
 int run(const Arguments& arguments, bool json) {
-  const world::Scenario scenario = io::load_scenario(arguments.scenario);
+  const world::Scenario scenario = arguments.scenario.load();
   const io::PlanFile plan = io::load_plan(arguments.plan);
   io::expect_same_team(scenario, plan, arguments.plan);
   const world::StaticMap map(scenario);

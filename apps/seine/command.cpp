@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "seine/base/error.hpp"
+#include "seine/io/scenario_file.hpp"
 
 namespace seine::app {
 
@@ -17,11 +18,26 @@ const CLI::Validator kPositive(
     },
     "ABOVE 0");
 
-CLI::Option* add_scenario(CLI::App& command, std::string& path) {
-  return command
-      .add_option("SCENARIO", path,
+world::Scenario ScenarioChoice::load() const {
+  io::ScenarioChanges changes{.robot_margin = robot_margin, .obstacle_margin = obstacle_margin, .model = {}};
+  if (!model.empty()) changes.model = io::load_model(model);
+  return io::load_scenario(path, changes);
+}
+
+void add_scenario(CLI::App& command, ScenarioChoice& choice) {
+  command
+      .add_option("SCENARIO", choice.path,
                   "the task: a scenario file, a CL-MAPF instance (*.yaml) or a TPCAP case (*.csv)")
       ->required();
+  const CLI::Range margin(0.0, 100.0);
+  command.add_option("--margin-robot", choice.robot_margin, "m between cars, instead of the file's")
+      ->check(margin);
+  command
+      .add_option("--margin-obstacle", choice.obstacle_margin,
+                  "m to obstacles and bounds, instead of the file's")
+      ->check(margin);
+  command.add_option("--model", choice.model,
+                     "a YAML file with footprint, wheelbase and limits: the car that every robot is");
 }
 
 void add_threads(CLI::App& command, int& threads) {

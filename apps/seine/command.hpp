@@ -3,7 +3,10 @@
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
+
+#include "seine/world/scenario.hpp"
 
 namespace seine::app {
 
@@ -30,8 +33,18 @@ void add_generate(CLI::App& program, Invocation& invocation);
 void add_export(CLI::App& program, Invocation& invocation);
 void add_bench(CLI::App& program, Invocation& invocation);
 
-/// The positional SCENARIO that most subcommands begin with.
-CLI::Option* add_scenario(CLI::App& command, std::string& path);
+/// The scenario of the command line.
+struct ScenarioChoice {
+  std::string path;
+  std::optional<double> robot_margin, obstacle_margin;  ///< m, instead of the file's
+  std::string model;                                    ///< a file; empty: the cars of the scenario
+
+  /// Throws InputError.
+  world::Scenario load() const;
+};
+
+/// The positional SCENARIO that most subcommands begin with, and the options that change it.
+void add_scenario(CLI::App& command, ScenarioChoice& choice);
 /// `--threads`, 0 for as many as the machine has.
 void add_threads(CLI::App& command, int& threads);
 /// `--seed`, 0 … 2^64 − 1.

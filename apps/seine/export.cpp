@@ -6,13 +6,12 @@
 
 #include "apps/seine/command.hpp"
 #include "seine/io/plan_file.hpp"
-#include "seine/io/scenario_file.hpp"
 
 namespace seine::app {
 namespace {
 
 struct Arguments {
-  std::string scenario;
+  ScenarioChoice scenario;
   std::string plan;
   std::string output;
   double rate = 20.0;
@@ -28,7 +27,7 @@ Example
 
 int run(const Arguments& arguments) {
   expect_writable(arguments.output);
-  const world::Scenario scenario = io::load_scenario(arguments.scenario);
+  const world::Scenario scenario = arguments.scenario.load();
   const io::PlanFile plan = io::load_plan(arguments.plan);
   io::expect_same_team(scenario, plan, arguments.plan);
   io::export_plan(scenario, plan.plan, arguments.rate, arguments.output);

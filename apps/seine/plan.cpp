@@ -15,14 +15,13 @@
 #include "seine/baseline/letter/letter.hpp"
 #include "seine/io/plan_file.hpp"
 #include "seine/io/report.hpp"
-#include "seine/io/scenario_file.hpp"
 #include "seine/planner/planner.hpp"
 
 namespace seine::app {
 namespace {
 
 struct Arguments {
-  std::string scenario;
+  ScenarioChoice scenario;
   std::string output;
   double deadline = std::numeric_limits<double>::infinity();
   int threads = 0;
@@ -65,7 +64,7 @@ int run(const Arguments& arguments, bool json) {
     throw InputError("--cusp-speed belongs to --method letter: cars of the method " + arguments.method +
                      " come to rest");
   expect_writable(arguments.output);
-  const world::Scenario scenario = io::load_scenario(arguments.scenario);
+  const world::Scenario scenario = arguments.scenario.load();
   ProgressLine line;
   planner::Options options{.deadline_s = arguments.deadline,
                            .threads = arguments.threads,

@@ -4,14 +4,13 @@
 
 #include "apps/seine/command.hpp"
 #include "seine/io/plan_file.hpp"
-#include "seine/io/scenario_file.hpp"
 #include "seine/io/svg.hpp"
 
 namespace seine::app {
 namespace {
 
 struct Arguments {
-  std::string scenario;
+  ScenarioChoice scenario;
   std::string plan;
   std::string output;
   bool whole = false;
@@ -25,7 +24,7 @@ Examples
 
 int run(const Arguments& arguments) {
   expect_writable(arguments.output);
-  const world::Scenario scenario = io::load_scenario(arguments.scenario);
+  const world::Scenario scenario = arguments.scenario.load();
   const io::SvgOptions options{.whole = arguments.whole, .title = {}, .note = {}};
   if (arguments.plan.empty()) {
     io::write_svg(scenario, arguments.output, options);

@@ -20,7 +20,6 @@
 #include "seine/io/file_bytes.hpp"
 #include "seine/io/plan_file.hpp"
 #include "seine/io/report.hpp"
-#include "seine/io/scenario_file.hpp"
 #include "seine/planner/planner.hpp"
 #include "seine/sim/csv_log.hpp"
 #include "seine/sim/mcap_log.hpp"
@@ -30,7 +29,7 @@ namespace seine::app {
 namespace {
 
 struct Arguments {
-  std::string scenario;
+  ScenarioChoice scenario;
   std::string plan;
   std::string noise = "none";
   bool replan = false;
@@ -123,7 +122,7 @@ sim::SimulationResult drive_plan(const Arguments& arguments, const world::Scenar
 
 int run(const Arguments& arguments, bool json) {
   const Log log(arguments.log);
-  const world::Scenario scenario = io::load_scenario(arguments.scenario);
+  const world::Scenario scenario = arguments.scenario.load();
   parse_faults(arguments.faults, scenario);  // complaints come before the work
   ProgressLine line;
   const planner::PlanResult plan =

@@ -28,8 +28,10 @@ class RobotClearance {
   }
 
   Clearances run() {
+    find_when_free();
     against_grid_inside();
     against_static();
+    to_obstacles_.require(context_.scenario.margins.obstacle);
     for (const MovingPart& part : scene_.moving) against(part);
     for (std::size_t j = static_cast<std::size_t>(robot_) + 1; j < scene_.robots.size(); ++j) {
       if (scene_.robots[j] != nullptr) against(*scene_.robots[j], static_cast<int>(j));
@@ -38,9 +40,43 @@ class RobotClearance {
   }
 
  private:
-  double margin_of(Kind kind) const {
-    return kind == Kind::robot_clearance ? context_.scenario.margins.robot
-                                         : context_.scenario.margins.obstacle;
+  double margin_of(Kind kind, double time) const {
+    const world::Margins& margins = context_.scenario.margins;
+    if (kind == Kind::robot_clearance) return margins.robot;
+    const bool leaves = time < free_from_ && kind != Kind::moving_obstacle_clearance;
+    return leaves ? margins.leaving.value_or(margins.obstacle) : margins.obstacle;
+  }
+
+  /// When a car that may start inside the margin first has all of it: looked at every kFreeStep. One that
+  /// never gets out is judged as if it had to have it from the start.
+  void find_when_free() {
+    const world::Margins& margins = context_.scenario.margins;
+    if (!(margins.leaving.value_or(margins.obstacle) < margins.obstacle)) return;
+    std::vector<Vec2> placed(mover_.core.size());
+    const double wanted = margins.obstacle - tolerance::kGapSeen;
+    std::size_t cell = 0;
+    for (long step = 0;; ++step) {
+      const double t = static_cast<double>(step) * kFreeStep;
+      if (t > scene_.horizon || (step % 512 == 511 && context_.out_of_time())) return;
+      while (cell + 1 < mover_.cells.size() && mover_.cells[cell].t1 < t) ++cell;
+      mover_.place(mover_.cells[cell], t, placed);
+      if (context_.map.distance(placed, wanted + 1.0) < wanted) continue;
+      free_from_ = t;
+      return;
+    }
+  }
+
+  /// Calls prove(t0, t1) for what of a cell lies before the car is free and for what lies after, with the
+  /// margin that holds there.
+  template <class Prove>
+  void in_parts(const Cell& cell, Prove&& prove) {
+    const double cut = std::clamp(free_from_, cell.t0, cell.t1);
+    if (cut > cell.t0) {
+      to_obstacles_.require(margin_of(Kind::bounds, cell.t0));
+      prove(cell.t0, cut);
+    }
+    to_obstacles_.require(context_.scenario.margins.obstacle);
+    if (cut < cell.t1 || cut == cell.t0) prove(cut, cell.t1);
   }
 
   std::string name_of_other(Kind kind, int other) const {
@@ -50,8 +86,8 @@ class RobotClearance {
   }
 
   void report(Kind kind, int other, const Episodes& episodes) {
-    const double margin = margin_of(kind);
     for (const auto& e : episodes.all()) {
+      const double margin = margin_of(kind, e.time);
       out_.findings.push_back({{kind, e.time, robot_, other, e.value, margin,
                                 format("%s comes within %.4f m of %s at t = %.4f s; %.4f m is required",
                                        context_.robot_name(robot_).c_str(), e.value,
@@ -66,10 +102,10 @@ class RobotClearance {
     if (proof.closest_changed) {
       closest = {proof.closest, proof.closest_time, robot_, kind == Kind::bounds ? -1 : other};
     }
-    if (worst) episodes.offer(t0, t1, worst->time, worst->distance, margin_of(kind) - worst->distance);
+    if (worst) episodes.offer(t0, t1, worst->time, worst->distance, margin_of(kind, t0) - worst->distance);
     if (!proof.undecided) return;
     out_.findings.push_back(
-        {{Kind::undecided, *proof.undecided, robot_, other, proof.closest, margin_of(kind),
+        {{Kind::undecided, *proof.undecided, robot_, other, proof.closest, margin_of(kind, t0),
           format("%s: its distance to %s could not be proved at t = %.4f s",
                  context_.robot_name(robot_).c_str(), name_of_other(kind, other).c_str(), *proof.undecided)},
          0.0});
@@ -143,16 +179,20 @@ class RobotClearance {
     if (box_gap(cell.box, piece.box) >= to_obstacles_.wanted()) return;
     const int index = static_cast<int>(&piece - context_.map.pieces().data());
     to_obstacles_.between(mover_, piece.shape.core, piece.shape.radius);
-    const auto worst = to_obstacles_.prove(cell, nullptr, cell.t0, cell.t1);
-    Episodes none;
-    note(to_obstacles_, out_.obstacles, Kind::obstacle_clearance, index, cell.t0, cell.t1, worst,
-         worst ? pieces[index] : none);
+    in_parts(cell, [&](double t0, double t1) {
+      const auto worst = to_obstacles_.prove(cell, nullptr, t0, t1);
+      Episodes none;
+      note(to_obstacles_, out_.obstacles, Kind::obstacle_clearance, index, t0, t1, worst,
+           worst ? pieces[index] : none);
+    });
   }
 
   void against_walls(const Cell& cell, Episodes& walls) {
     if (depth_inside(cell.box) >= to_obstacles_.wanted()) return;
-    const auto worst = to_obstacles_.prove_inside(context_.map.bounds(), mover_, cell);
-    note(to_obstacles_, out_.obstacles, Kind::bounds, -1, cell.t0, cell.t1, worst, walls);
+    in_parts(cell, [&](double t0, double t1) {
+      const auto worst = to_obstacles_.prove_inside(context_.map.bounds(), mover_, cell, t0, t1);
+      note(to_obstacles_, out_.obstacles, Kind::bounds, -1, t0, t1, worst, walls);
+    });
   }
 
   /// How far a box is inside the bounds, m.
@@ -188,6 +228,7 @@ class RobotClearance {
   const Scene& scene_;
   int robot_;
   const Mover& mover_;
+  double free_from_ = 0.0;  // s: until then Margins::leaving holds to what stands still
   GapProof to_robots_, to_obstacles_;
   Clearances out_;
 };

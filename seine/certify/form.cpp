@@ -5,6 +5,7 @@
 
 #include "seine/certify/tolerances.hpp"
 #include "seine/geom/pose2.hpp"
+#include "seine/world/granted_speed.hpp"
 
 namespace seine::certify {
 namespace {
@@ -112,7 +113,9 @@ class FormCheck {
     const bool waits = segments_.front().wait > 0.0;
     check_pose(Kind::start, 0.0, begin, asked_.start, "the distance (m) from its start",
                "the angle (rad) to its start heading");
-    require(Kind::start, 0.0, std::abs((waits ? 0.0 : begin.speed) - asked_.start_speed), tolerance::kSpeed,
+    const double asked = world::granted_speed(context_.scenario.model_of(asked_).limits, asked_.start_speed)
+                             .value_or(asked_.start_speed);
+    require(Kind::start, 0.0, std::abs((waits ? 0.0 : begin.speed) - asked), tolerance::kSpeed,
             "the difference (m/s) to its start speed");
     if (waits) {
       require(Kind::rest, segments_.front().wait, std::abs(begin.speed), tolerance::kSpeed,

@@ -17,10 +17,14 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 }  // namespace
 
 GapProof::GapProof(Context& context, double margin)
-    : context_(context),
-      seen_(margin - tolerance::kGapSeen),
-      proved_(margin - tolerance::kGapProved),
-      levels_(static_cast<std::size_t>(kDeepest) + 3) {}
+    : context_(context), levels_(static_cast<std::size_t>(kDeepest) + 3) {
+  require(margin);
+}
+
+void GapProof::require(double margin) {
+  seen_ = margin - tolerance::kGapSeen;
+  proved_ = margin - tolerance::kGapProved;
+}
 
 void GapProof::between(const Mover& a, const Mover& b) {
   a_ = &a;
@@ -130,15 +134,15 @@ double GapProof::gap_inside(const geom::Box& bounds, double t) {
 }
 
 std::optional<GapProof::Worst> GapProof::prove_inside(const geom::Box& bounds, const Mover& mover,
-                                                      const Cell& cell) {
+                                                      const Cell& cell, double t0, double t1) {
   between(mover, {}, 0.0);
   cell_a_ = &cell;
-  worst_ = {cell.t0, kInfinity};
+  worst_ = {t0, kInfinity};
   steps_ = 0;
   closest_changed = false;
   bend_ = cell.bend;
-  const double gap0 = gap_inside(bounds, cell.t0), gap1 = gap_inside(bounds, cell.t1);
-  refine_inside(bounds, cell.t0, gap0, cell.t1, gap1, 0);
+  const double gap0 = gap_inside(bounds, t0), gap1 = gap_inside(bounds, t1);
+  refine_inside(bounds, t0, gap0, t1, gap1, 0);
   return result();
 }
 

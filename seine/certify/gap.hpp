@@ -28,6 +28,9 @@ class GapProof {
   /// @param margin m, to be kept
   GapProof(Context& context, double margin);
 
+  /// Another margin from now on, m.
+  void require(double margin);
+
   void between(const Mover& a, const Mover& b);
   void between(const Mover& a, std::span<const geom::Vec2> fixed, double radius);
 
@@ -37,7 +40,8 @@ class GapProof {
   /// The worst instant when the margin is broken on [t0, t1]. @param b null when the other body stands still
   std::optional<Worst> prove(const Cell& a, const Cell* b, double t0, double t1);
   /// The same within the bounds: all four walls at once.
-  std::optional<Worst> prove_inside(const geom::Box& bounds, const Mover& mover, const Cell& cell);
+  std::optional<Worst> prove_inside(const geom::Box& bounds, const Mover& mover, const Cell& cell, double t0,
+                                    double t1);
 
   /// Smallest distance met so far, over all pairs given to this proof; set it lower to look only for closer
   /// ones.

@@ -28,6 +28,9 @@ inline constexpr double kClosestResolution = 1e-3;
 /// Obstacles further than this are not looked for, m.
 inline constexpr double kObstacleSearch = 1.0;
 
+/// When a car that starts inside the margin has first left it is looked at so often, s.
+inline constexpr double kFreeStep = 1e-3;
+
 /// What is left of the net's size and shape is found to within this, m.
 inline constexpr double kNetResolution = 5e-3;
 inline constexpr double kReserveResolution = 1e-2;  // m², of its holding reserve

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <utility>
@@ -217,6 +218,25 @@ std::string why_not_simple(std::span<const Vec2> polygon) {
   }
   if (signed_area(polygon) == 0.0) return "the polygon has no area";
   return "";
+}
+
+std::vector<Vec2> without_repeats(std::vector<Vec2> ring) {
+  double largest = 0.0;
+  for (const Vec2 p : ring) largest = std::max({largest, std::abs(p.x), std::abs(p.y)});
+  const double same = std::max(1e-9, 4.0 * std::numeric_limits<double>::epsilon() * largest);  // m
+  const auto one = [same](Vec2 a, Vec2 b) { return norm(a - b) <= same; };
+  std::vector<Vec2> kept;
+  for (const Vec2 p : ring)
+    if (kept.empty() || !one(kept.back(), p)) kept.push_back(p);
+  while (kept.size() > 1 && one(kept.front(), kept.back())) kept.pop_back();
+  for (std::size_t round = 3; 2 * round <= kept.size(); ++round) {
+    if (kept.size() % round != 0) continue;
+    const auto again = [&](std::size_t i) { return one(kept[i], kept[i % round]); };
+    std::size_t i = round;
+    while (i < kept.size() && again(i)) ++i;
+    if (i == kept.size()) kept.resize(round);
+  }
+  return kept;
 }
 
 bool is_convex(std::span<const Vec2> counter_clockwise) {

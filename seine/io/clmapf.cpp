@@ -33,11 +33,11 @@ geom::Box bounds_of(const world::Scenario& scenario, geom::Vec2 size) {
 
 }  // namespace
 
-world::Scenario read_clmapf(const YamlValue& root, const std::string& name) {
+world::Scenario read_clmapf(const YamlValue& root, const std::string& name, const vehicle::Model& car) {
   const YamlMap top = root.map({"agents", "map"});
   world::Scenario scenario;
   scenario.name = name;
-  scenario.models = {vehicle::clmapf_car()};
+  scenario.models = {car};
   scenario.margins = {0.0, 0.0};
   std::unordered_set<std::string> names;
   for (const YamlValue& agent : top.at("agents").list(1, ScenarioCaps::kRobots)) {
@@ -54,9 +54,11 @@ world::Scenario read_clmapf(const YamlValue& root, const std::string& name) {
   const auto obstacles = map.find("obstacles");
   if (obstacles && !obstacles->is_null()) {
     for (const YamlValue& entry : obstacles->list(0, ScenarioCaps::kObstacles)) {
-      const std::vector<double> xy = entry.numbers(2, kCoordinate);
+      const std::vector<YamlValue> parts = entry.list(2, 3);  // [x, y], and in CSDO's instances a radius
+      const double x = parts[0].number(kCoordinate), y = parts[1].number(kCoordinate);
+      const double radius = parts.size() == 3 ? parts[2].number(kSize) : kObstacleRadius;
       scenario.obstacles.push_back({.name = "obstacle " + std::to_string(scenario.obstacles.size() + 1),
-                                    .shape = world::Circle{{xy[0], xy[1]}, kObstacleRadius},
+                                    .shape = world::Circle{{x, y}, radius},
                                     .motion = {}});
     }
   }

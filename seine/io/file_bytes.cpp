@@ -49,6 +49,10 @@ std::string read_file(const fs::path& path, std::size_t limit) {
   return content;
 }
 
+std::string_view without_mark(std::string_view text) {
+  return text.starts_with("\xef\xbb\xbf") ? text.substr(3) : text;
+}
+
 void write_file(const fs::path& path, std::string_view content) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);

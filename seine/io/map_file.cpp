@@ -49,7 +49,7 @@ int read_count(std::string_view line, std::string_view key, const std::string& f
 
 MapHeader parse_map_header(std::string_view text, const std::string& file) {
   // Keys of other programs may stand in it: this format is not ours.
-  const YamlMap map = YamlValue::parse(text, file).open_map();
+  const YamlMap map = YamlValue::parse(without_mark(text), file).open_map();
   MapHeader header;
   header.image = map.at("image").text();
   header.resolution = map.at("resolution").number({1e-4, 1e3});
@@ -81,6 +81,7 @@ geom::OccupancyGrid grid_from_image(const GreyImage& image, const MapHeader& hea
 }
 
 geom::OccupancyGrid parse_movingai(std::string_view text, const std::string& file) {
+  text = without_mark(text);
   if (take_line(text).substr(0, 5) != "type ")
     throw complaint(file, 1, "is no MovingAI map, expected 'type octile'");
   geom::OccupancyGrid grid;

@@ -57,10 +57,11 @@ std::vector<Vec2> regular_net(const YamlValue& value, std::size_t corners) {
 
 std::vector<Vec2> read_rest(const YamlValue& value, std::size_t robots) {
   std::vector<Vec2> rest;
-  for (const YamlValue& entry : value.list(3, ScenarioCaps::kNetCorners)) {
+  for (const YamlValue& entry : value.list(3, ScenarioCaps::kNetCorners + 1)) {
     const std::vector<double> xy = entry.numbers(2, kCoordinate);
     rest.push_back({xy[0], xy[1]});
   }
+  rest = geom::without_repeats(std::move(rest));
   expect_corners(value, rest.size(), robots);
   const std::string wrong = geom::why_not_simple(rest);
   if (!wrong.empty()) value.fail("is not simple: " + wrong);

@@ -1,12 +1,17 @@
 #include <algorithm>
 #include <array>
+#include <limits>
+#include <optional>
 #include <unordered_set>
 
 #include "seine/geom/convex.hpp"
 #include "seine/geom/polygon.hpp"
 #include "seine/io/map_file.hpp"
+#include "seine/io/message.hpp"
+#include "seine/io/number_text.hpp"
 #include "seine/io/scenario_file.hpp"
 #include "seine/io/scenario_formats.hpp"
+#include "seine/world/granted_speed.hpp"
 
 namespace seine::io {
 namespace {
@@ -28,12 +33,27 @@ std::vector<Vec2> read_polygon(const YamlValue& value) {
   std::vector<Vec2> polygon;
   for (const YamlValue& point : value.list(3, ScenarioCaps::kPolygonVertices))
     polygon.push_back(read_point(point));
-  return polygon;
+  return geom::without_repeats(std::move(polygon));
 }
 
 geom::Pose2 read_pose(const YamlMap& map) {
   return {map.at("x").number(kCoordinate), map.at("y").number(kCoordinate),
           geom::wrap_angle(map.at("heading").number(kAngle))};
+}
+
+/// The hull of a footprint that is convex but for rounding: of vertices on a straight side, and the like.
+std::vector<Vec2> nearest_convex(const YamlValue& value, const std::vector<Vec2>& vertices) {
+  constexpr double kRounding = 1e-6;  // m, how deep a vertex may lie inside the hull
+  const std::vector<Vec2> hull = geom::convex_hull(vertices);
+  for (const Vec2 p : vertices) {
+    double depth = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < hull.size(); ++i) {
+      const Vec2 edge = hull[(i + 1) % hull.size()] - hull[i];
+      depth = std::min(depth, geom::cross(edge, p - hull[i]) / geom::norm(edge));
+    }
+    if (depth > kRounding) value.fail("is not convex, expected a convex polygon");
+  }
+  return hull;
 }
 
 std::vector<Vec2> read_footprint(const YamlValue& value) {
@@ -47,11 +67,11 @@ std::vector<Vec2> read_footprint(const YamlValue& value) {
     value.fail("has both a polygon and sides of a rectangle, expected one of them");
   std::vector<Vec2> vertices;
   for (const YamlValue& point : polygon->list(3, 100)) vertices.push_back(read_point(point));
+  vertices = geom::without_repeats(std::move(vertices));
   const std::string wrong = geom::why_not_simple(vertices);
   if (!wrong.empty()) polygon->fail("is not simple: " + wrong);
   if (geom::signed_area(vertices) < 0) std::reverse(vertices.begin(), vertices.end());
-  if (!geom::is_convex(vertices)) polygon->fail("is not convex, expected a convex polygon");
-  return vertices;
+  return geom::is_convex(vertices) ? vertices : nearest_convex(*polygon, vertices);
 }
 
 vehicle::Limits read_limits(const YamlValue& value, vehicle::Limits limits) {
@@ -75,28 +95,6 @@ vehicle::Model default_model() {
       .name = "default", .footprint = vehicle::rectangle_footprint(0.60, 0.40, 0.10), .limits = {}};
   model.limits.lateral_acceleration = 3.0;
   return model;
-}
-
-vehicle::Model read_model(const std::string& name, const YamlValue& value) {
-  const YamlMap map = value.map({"footprint", "wheelbase", "limits"});
-  vehicle::Model model = default_model();
-  model.name = name;
-  if (const auto footprint = map.find("footprint")) model.footprint = read_footprint(*footprint);
-  model.wheelbase = map.number("wheelbase", kSize, model.wheelbase);
-  if (const auto limits = map.find("limits")) model.limits = read_limits(*limits, model.limits);
-  return model;
-}
-
-std::vector<vehicle::Model> read_models(const std::optional<YamlValue>& value) {
-  if (!value) return {default_model()};
-  const YamlMap map = value->open_map();
-  if (map.entries().empty() || map.entries().size() > ScenarioCaps::kModels) {
-    value->fail("has " + std::to_string(map.entries().size()) + " entries, expected 1 to " +
-                std::to_string(ScenarioCaps::kModels));
-  }
-  std::vector<vehicle::Model> models;
-  for (const auto& [name, model] : map.entries()) models.push_back(read_model(name, model));
-  return models;
 }
 
 std::vector<world::Waypoint> read_motion(const YamlValue& value, std::size_t& vertices_left) {
@@ -158,6 +156,8 @@ void read_world(const YamlValue& value, const std::filesystem::path& folder, Sce
     const std::vector<double> b = bounds->numbers(4, kCoordinate);
     scenario.bounds = {{b[0], b[1]}, {b[2], b[3]}};
     if (b[0] >= b[2] || b[1] >= b[3]) bounds->fail("are empty, expected [xmin, ymin, xmax, ymax]");
+    if (std::max(b[2] - b[0], b[3] - b[1]) > kWidestWorld)
+      bounds->fail("are wider than 2000 km, expected a smaller world");
   } else if (scenario.map) {
     scenario.bounds = scenario.map->box();
   } else {
@@ -194,9 +194,14 @@ world::Robot read_robot(const YamlValue& value, std::size_t index, const Scenari
   robot.start = read_pose(start);
   robot.start_speed = start.number("speed", {-1e4, 1e4}, 0.0);
   const vehicle::Limits& limits = scenario.model_of(robot).limits;
-  if (robot.start_speed > limits.speed || robot.start_speed < -limits.reverse_speed) {
-    start.at("speed").fail("is beyond what the model can drive");
+  const std::optional<double> granted = world::granted_speed(limits, robot.start_speed);
+  if (!granted) {
+    start.at("speed").fail(joined("is ", number_text(robot.start_speed),
+                                  ", beyond what the model can drive: ", number_text(-limits.reverse_speed),
+                                  " to ", number_text(limits.speed),
+                                  " m/s, and 1 % more for measured speeds"));
   }
+  robot.start_speed = *granted;
   const auto goal = map.find("goal");
   if (goal) robot.goal = read_pose(goal->map({"x", "y", "heading"}));
   if (!goal && !net) value.fail("has no 'goal', which is required for a team without a net");
@@ -216,20 +221,47 @@ void read_robots(const YamlValue& value, Scenario& scenario, bool net) {
 
 }  // namespace
 
+vehicle::Model read_model(const std::string& name, const YamlValue& value) {
+  const YamlMap map = value.map({"footprint", "wheelbase", "limits"});
+  vehicle::Model model = default_model();
+  model.name = name;
+  if (const auto footprint = map.find("footprint")) model.footprint = read_footprint(*footprint);
+  model.wheelbase = map.number("wheelbase", kSize, model.wheelbase);
+  if (const auto limits = map.find("limits")) model.limits = read_limits(*limits, model.limits);
+  return model;
+}
+
+std::vector<vehicle::Model> read_models(const std::optional<YamlValue>& value) {
+  if (!value) return {default_model()};
+  const YamlMap map = value->open_map();
+  if (map.entries().empty() || map.entries().size() > ScenarioCaps::kModels) {
+    value->fail("has " + std::to_string(map.entries().size()) + " entries, expected 1 to " +
+                std::to_string(ScenarioCaps::kModels));
+  }
+  std::vector<vehicle::Model> models;
+  for (const auto& [name, model] : map.entries()) models.push_back(read_model(name, model));
+  return models;
+}
+
+void expect_version(const YamlMap& top) {
+  const YamlValue version = top.at("seine");
+  if (version.integer(0, 1000000) != 1) version.fail("is a format this version cannot read, expected 1");
+}
+
 Scenario read_native(const YamlValue& root, const std::string& name, const std::filesystem::path& folder) {
   const YamlMap top = root.map(
       {"seine", "name", "world", "models", "margins", "robots", "net", "targets", "payload", "delivery"});
-  const YamlValue version = top.at("seine");
-  if (version.integer(0, 1000000) != 1) version.fail("is a format this version cannot read, expected 1");
+  expect_version(top);
   Scenario scenario;
   const auto given_name = top.find("name");
   scenario.name = given_name ? given_name->text() : name;
   read_world(top.at("world"), folder, scenario);
   scenario.models = read_models(top.find("models"));
   if (const auto margins = top.find("margins")) {
-    const YamlMap map = margins->map({"robot", "obstacle"});
-    scenario.margins.robot = map.number("robot", {0.0, 100.0}, scenario.margins.robot);
-    scenario.margins.obstacle = map.number("obstacle", {0.0, 100.0}, scenario.margins.obstacle);
+    const YamlMap map = margins->map({"robot", "obstacle", "leaving"});
+    scenario.margins.robot = map.number("robot", kMargin, scenario.margins.robot);
+    scenario.margins.obstacle = map.number("obstacle", kMargin, scenario.margins.obstacle);
+    if (const auto leaving = map.find("leaving")) scenario.margins.leaving = leaving->number(kMargin);
   }
   read_robots(top.at("robots"), scenario, top.has("net"));
   read_net_keys(top, scenario);

@@ -14,6 +14,7 @@ void add_plan(const world::Scenario& scenario, const planner::PlanResult& result
               JsonObject& object) {
   object.add("certified", result.certified);
   if (result.claimed) object.add("claimed", *result.claimed);
+  if (!result.certified && made) object.add("impossible", result.impossible);
   object.add("reason", result.reason);
   object.add("robots", static_cast<int>(scenario.robots.size()));
   if (made) {

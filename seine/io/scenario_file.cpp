@@ -7,23 +7,93 @@
 
 namespace seine::io {
 
-world::Scenario load_scenario(const std::filesystem::path& path) {
-  return parse_scenario(read_file(path, ScenarioCaps::kFileBytes), path.string(), path.parent_path());
+namespace {
+
+constexpr int kDeepestImport = 1;  // a scenario imports a file, which imports nothing
+
+void apply(const ScenarioChanges& changes, world::Scenario& scenario) {
+  scenario.margins.robot = changes.robot_margin.value_or(scenario.margins.robot);
+  scenario.margins.obstacle = changes.obstacle_margin.value_or(scenario.margins.obstacle);
+  if (!changes.model) return;
+  scenario.models = {*changes.model};
+  for (world::Robot& robot : scenario.robots) robot.model = 0;
+}
+
+world::Scenario parse(std::string_view text, const std::string& file, const std::filesystem::path& folder,
+                      const ScenarioChanges& changes, int depth);
+
+/// A scenario around another file: its own margins, car and name (docs/scenario.md).
+world::Scenario read_import(const YamlValue& root, const std::filesystem::path& folder,
+                            const ScenarioChanges& changes, int depth) {
+  const YamlMap top = root.map({"seine", "name", "import", "models", "margins"});
+  expect_version(top);
+  const YamlValue import = top.at("import");
+  if (depth >= kDeepestImport) import.fail("is in an imported file, expected a file that imports nothing");
+  ScenarioChanges inner;
+  if (const auto margins = top.find("margins")) {
+    const YamlMap map = margins->map({"robot", "obstacle"});
+    if (map.has("robot")) inner.robot_margin = map.at("robot").number(kMargin);
+    if (map.has("obstacle")) inner.obstacle_margin = map.at("obstacle").number(kMargin);
+  }
+  if (const auto value = top.find("models")) {
+    const std::vector<vehicle::Model> models = read_models(value);
+    if (models.size() != 1)
+      value->fail(joined("has ", models.size(), " entries, expected one, for every imported car"));
+    inner.model = models.front();
+  }
+  if (changes.robot_margin) inner.robot_margin = changes.robot_margin;
+  if (changes.obstacle_margin) inner.obstacle_margin = changes.obstacle_margin;
+  if (changes.model) inner.model = changes.model;
+  const std::filesystem::path path = folder / import.text();
+  world::Scenario scenario =
+      parse(read_file(path, ScenarioCaps::kFileBytes), path.string(), path.parent_path(), inner, depth + 1);
+  if (const auto name = top.find("name")) scenario.name = name->text();
+  return scenario;
+}
+
+world::Scenario parse(std::string_view text, const std::string& file, const std::filesystem::path& folder,
+                      const ScenarioChanges& changes, int depth) {
+  const std::filesystem::path path(file);
+  text = without_mark(text);
+  const std::string name = path.stem().string();
+  world::Scenario scenario;
+  if (path.extension() == ".csv") {
+    scenario = read_tpcap(text, file, name);
+  } else {
+    const YamlValue root = YamlValue::parse(text, file);
+    const YamlMap top = root.open_map();
+    if (top.has("seine")) {
+      if (top.has("import")) return read_import(root, folder, changes, depth);
+      scenario = read_native(root, name, folder);
+    } else if (top.has("agents") && top.has("map")) {
+      scenario = read_clmapf(root, name, changes.model.value_or(vehicle::clmapf_car()));
+    } else if (top.has("image")) {
+      throw complaint(file, 1,
+                      "is a map, expected a scenario; a scenario names a map as 'world: {map: ...}'");
+    } else {
+      throw complaint(file, 1,
+                      "is no scenario, expected 'seine: 1' (or a CL-MAPF instance, or a TPCAP .csv)");
+    }
+  }
+  apply(changes, scenario);
+  return scenario;
+}
+
+}  // namespace
+
+world::Scenario load_scenario(const std::filesystem::path& path, const ScenarioChanges& changes) {
+  return parse_scenario(read_file(path, ScenarioCaps::kFileBytes), path.string(), path.parent_path(),
+                        changes);
 }
 
 world::Scenario parse_scenario(std::string_view text, const std::string& file,
-                               const std::filesystem::path& folder) {
-  const std::filesystem::path path(file);
-  const std::string name = path.stem().string();
-  if (path.extension() == ".csv") return read_tpcap(text, file, name);
-  const YamlValue root = YamlValue::parse(text, file);
-  const YamlMap top = root.open_map();
-  if (top.has("seine")) return read_native(root, name, folder);
-  if (top.has("agents") && top.has("map")) return read_clmapf(root, name);
-  if (top.has("image")) {
-    throw complaint(file, 1, "is a map, expected a scenario; a scenario names a map as 'world: {map: ...}'");
-  }
-  throw complaint(file, 1, "is no scenario, expected 'seine: 1' (or a CL-MAPF instance, or a TPCAP .csv)");
+                               const std::filesystem::path& folder, const ScenarioChanges& changes) {
+  return parse(text, file, folder, changes, 0);
+}
+
+vehicle::Model load_model(const std::filesystem::path& path) {
+  const std::string text = read_file(path, ScenarioCaps::kFileBytes);
+  return read_model(path.stem().string(), YamlValue::parse(without_mark(text), path.string()));
 }
 
 }  // namespace seine::io

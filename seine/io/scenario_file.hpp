@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -20,17 +21,28 @@ struct ScenarioCaps {
   static constexpr std::size_t kTargets = 100;
 };
 
+/// What a user sets for a file that says something else or cannot say it: other people's files have neither
+/// margins nor cars.
+struct ScenarioChanges {
+  std::optional<double> robot_margin;     ///< m
+  std::optional<double> obstacle_margin;  ///< m
+  std::optional<vehicle::Model> model;    ///< for every car
+};
+
 /// Reads a scenario: Seine's own format (docs/scenario.md), a CL-MAPF instance [Wen22] or a TPCAP case [Li22]
 /// (`*.csv`), recognised by content and name. Throws InputError "file:line: what is wrong, what was
 /// expected".
-world::Scenario load_scenario(const std::filesystem::path& path);
+world::Scenario load_scenario(const std::filesystem::path& path, const ScenarioChanges& changes = {});
 
 /// The same from text.
 /// @param file name for messages; its stem is the default name of the scenario, a `.csv` at its end makes it
 /// a TPCAP case
 /// @param folder where the paths in it start
 world::Scenario parse_scenario(std::string_view text, const std::string& file,
-                               const std::filesystem::path& folder);
+                               const std::filesystem::path& folder, const ScenarioChanges& changes = {});
+
+/// Reads one car model from a YAML file with the keys of an entry of `models` (docs/scenario.md).
+vehicle::Model load_model(const std::filesystem::path& path);
 
 /// Writes Seine's own format; load_scenario gives back an equal scenario, bit by bit. A map goes into files
 /// beside it

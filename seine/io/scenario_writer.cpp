@@ -169,8 +169,11 @@ std::string scenario_text(const world::Scenario& scenario, const std::string& ma
     out += obstacle_text(scenario.obstacles[i], i + 1);
   out += "models:\n";
   for (const vehicle::Model& model : scenario.models) out += model_text(model);
-  out += joined("margins: {robot: ", number_text(scenario.margins.robot),
-                ", obstacle: ", number_text(scenario.margins.obstacle), "}\nrobots:\n");
+  out +=
+      joined("margins: {robot: ", number_text(scenario.margins.robot),
+             ", obstacle: ", number_text(scenario.margins.obstacle),
+             (scenario.margins.leaving ? joined(", leaving: ", number_text(*scenario.margins.leaving)) : ""),
+             "}\nrobots:\n");
   for (const world::Robot& robot : scenario.robots) out += robot_text(scenario, robot);
   return out + net_keys_text(scenario);
 }

@@ -15,7 +15,9 @@ constexpr double kFarthest = 1e12;        // m
 // Two of the twenty cases lie some 10^9 m from the origin, where a double resolves a micrometre and products
 // of coordinates nothing at all: farther than this from it (m), the origin moves to the whole metre nearest
 // to the start. The subtraction is exact.
-constexpr double kFar = 1e5;
+constexpr double kFar = kCoordinate.high;
+constexpr double kLongestDrive = 1e5;    // m, from start to goal
+constexpr double kFarthestVertex = 1e6;  // m, from the start
 
 /// The numbers of a TPCAP file one after the other.
 class NumberList {
@@ -76,22 +78,23 @@ geom::Pose2 read_pose(NumberList& numbers) {
   return {x, y, geom::wrap_angle(numbers.next("heading of start or goal"))};
 }
 
-std::vector<geom::Vec2> read_polygon(NumberList& numbers, std::size_t vertices, geom::Vec2 origin) {
+std::vector<geom::Vec2> read_polygon(NumberList& numbers, std::size_t vertices, geom::Vec2 origin,
+                                     geom::Vec2 start) {
   std::vector<geom::Vec2> polygon;
   for (std::size_t i = 0; i < vertices; ++i) {
     const double x = numbers.next("x of a vertex"), y = numbers.next("y of a vertex");
-    const geom::Vec2 vertex = geom::Vec2{x, y} - origin;
-    if (std::max(std::abs(vertex.x), std::abs(vertex.y)) > 10 * kFar)
+    const geom::Vec2 vertex = geom::Vec2{x, y} - origin, off = vertex - start;
+    if (std::max(std::abs(off.x), std::abs(off.y)) > kFarthestVertex)
       numbers.fail("puts a vertex too far from the start");
-    // Some cases repeat vertices to fill up their polygons.
-    if (polygon.empty() || !(polygon.back() == vertex)) polygon.push_back(vertex);
+    polygon.push_back(vertex);
   }
-  while (polygon.size() > 1 && polygon.front() == polygon.back()) polygon.pop_back();
-  return polygon;
+  // Some cases repeat vertices to fill up their polygons.
+  return geom::without_repeats(std::move(polygon));
 }
 
 void read_obstacles(NumberList& numbers, const std::string& file, geom::Vec2 origin,
                     world::Scenario& scenario) {
+  const geom::Vec2 start = scenario.robots.front().start.position();
   const std::size_t count = numbers.next_count("the number of obstacles", 0, ScenarioCaps::kObstacles);
   std::vector<std::size_t> sizes;
   std::size_t vertices = 0;
@@ -102,7 +105,7 @@ void read_obstacles(NumberList& numbers, const std::string& file, geom::Vec2 ori
   }
   for (std::size_t i = 0; i < count; ++i) {
     world::Obstacle obstacle{.name = joined("obstacle ", i + 1), .shape = {}, .motion = {}};
-    std::vector<geom::Vec2> polygon = read_polygon(numbers, sizes[i], origin);
+    std::vector<geom::Vec2> polygon = read_polygon(numbers, sizes[i], origin, start);
     const std::string wrong = geom::why_not_simple(polygon);
     if (!wrong.empty()) throw complaint(file, 1, obstacle.name + " is no simple polygon: " + wrong);
     obstacle.shape = std::move(polygon);
@@ -121,7 +124,7 @@ world::Scenario read_tpcap(std::string_view text, const std::string& file, const
   world::Robot robot{.name = "car0", .start = read_pose(numbers), .goal = read_pose(numbers)};
   const geom::Vec2 origin = origin_near(robot.start.position());
   for (geom::Pose2* pose : {&robot.start, &*robot.goal}) pose->x -= origin.x, pose->y -= origin.y;
-  if (geom::norm(robot.goal->position() - robot.start.position()) > kFar)
+  if (geom::norm(robot.goal->position() - robot.start.position()) > kLongestDrive)
     numbers.fail("ends a goal too far from the start");
   scenario.bounds.include(robot.start.position());
   scenario.bounds.include(robot.goal->position());

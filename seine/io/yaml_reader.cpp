@@ -11,6 +11,9 @@
 namespace seine::io {
 namespace {
 
+constexpr const char* kWholeFile = "the file";  // what the root is called
+constexpr std::string_view kMerge = "<<";       // YAML 1.1's merge key
+
 /// `text` cut to a length that fits a message, control bytes as '?'.
 std::string excerpt(std::string_view text) {
   std::string shown(text.substr(0, 40));
@@ -58,7 +61,7 @@ YamlValue YamlValue::parse(std::string_view text, const std::string& file) {
   try {
     const YAML::Node root = YAML::Load(std::string(text));
     if (root.IsNull()) throw complaint(file, 1, "is empty, expected YAML");
-    return {root, std::make_shared<const std::string>(file), "the file"};
+    return {root, std::make_shared<const std::string>(file), kWholeFile};
   } catch (const YAML::Exception& error) {
     throw complaint(file, error.mark.line + 1, yaml_complaint(error.msg));
   }
@@ -148,23 +151,58 @@ YamlMap YamlValue::read_map(const std::initializer_list<std::string_view>* keys)
   if (!node_.IsMap()) fail(joined("is ", found(), ", expected a map of 'key: value'"));
   YamlMap map(*this);
   std::unordered_set<std::string> seen;
+  std::vector<YAML::Node> merged;
   for (const auto& entry : node_) {
-    const YamlValue key(entry.first, file_, joined("a key of ", what_));
-    const std::string& name = key.scalar("a text");
-    if (keys != nullptr && std::find(keys->begin(), keys->end(), name) == keys->end()) {
-      throw complaint(*file_, entry.first.Mark().line + 1,
-                      joined("unknown key '", excerpt(name), "' in ", what_, did_you_mean(name, {*keys})));
+    const std::string& name = YamlValue(entry.first, file_, joined("a key of ", what_)).scalar("a text");
+    const int line = entry.first.Mark().line + 1;
+    if (name != kMerge) expect_known(name, line, keys);
+    if (!seen.insert(name).second)
+      throw complaint(*file_, line, joined("key '", excerpt(name), "' stands twice in ", what_));
+    if (name == kMerge)
+      add_merged(entry.second, merged, 0);
+    else
+      map.entries_.emplace_back(name, value_of(name, entry.second));
+  }
+  // What stands in the map itself comes first, then the maps it merges, the earlier before the later.
+  for (const YAML::Node& source : merged) {
+    for (const auto& entry : source) {
+      const std::string& name = YamlValue(entry.first, file_, joined("a key of ", what_)).scalar("a text");
+      if (name == kMerge || !seen.insert(name).second) continue;
+      expect_known(name, entry.first.Mark().line + 1, keys);
+      map.entries_.emplace_back(name, value_of(name, entry.second));
     }
-    if (!seen.insert(name).second) {
-      throw complaint(*file_, entry.first.Mark().line + 1,
-                      joined("key '", excerpt(name), "' stands twice in ", what_));
-    }
-    const bool top = what_ == "the file";
-    map.entries_.emplace_back(
-        name,
-        YamlValue(entry.second, file_, joined("'", excerpt(name), "'", (top ? "" : joined(" of ", what_)))));
   }
   return map;
+}
+
+void YamlValue::expect_known(const std::string& name, int line,
+                             const std::initializer_list<std::string_view>* keys) const {
+  if (keys == nullptr || std::find(keys->begin(), keys->end(), name) != keys->end()) return;
+  if (what_ == kWholeFile && name.starts_with("x-")) return;  // a place for anchors
+  throw complaint(*file_, line,
+                  joined("unknown key '", excerpt(name), "' in ", what_, did_you_mean(name, {*keys})));
+}
+
+YamlValue YamlValue::value_of(const std::string& key, const YAML::Node& node) const {
+  const bool top = what_ == kWholeFile;
+  return {node, file_, joined("'", excerpt(key), "'", (top ? "" : joined(" of ", what_)))};
+}
+
+/// What a merge key names: a map or a list of maps, each followed by what it merges itself.
+void YamlValue::add_merged(const YAML::Node& node, std::vector<YAML::Node>& sources, int depth) const {
+  constexpr int kDeepest = 20;
+  constexpr std::size_t kMost = 1000;  // maps that merge each other twice over would grow without end
+  const YamlValue value(node, file_, joined("'<<' of ", what_));
+  if (depth > kDeepest || sources.size() > kMost) value.fail("merges too many maps");
+  if (node.IsSequence()) {
+    for (const YAML::Node& entry : node) add_merged(entry, sources, depth + 1);
+    return;
+  }
+  if (!node.IsMap()) value.fail(joined("is ", value.found(), ", expected a map or a list of maps to merge"));
+  sources.push_back(node);
+  for (const auto& entry : node)
+    if (entry.first.IsScalar() && entry.first.Scalar() == kMerge)
+      add_merged(entry.second, sources, depth + 1);
 }
 
 std::optional<YamlValue> YamlMap::find(std::string_view key) const {

@@ -48,7 +48,8 @@ class YamlValue {
   /// A map whose keys are all among `keys` and occur once. Anything else fails with the nearest key as a
   /// hint.
   YamlMap map(std::initializer_list<std::string_view> keys) const;
-  /// A map with any keys, each once, in the order of the file.
+  /// A map with any keys, each once, in the order of the file. In both, what a merge key (`<<: *anchor`, or a
+  /// list of them) brings comes after the map's own keys and does not replace them.
   YamlMap open_map() const;
 
  private:
@@ -56,6 +57,10 @@ class YamlValue {
   YamlValue(const YAML::Node& node, std::shared_ptr<const std::string> file, std::string what)
       : node_(node), file_(std::move(file)), what_(std::move(what)) {}
   YamlMap read_map(const std::initializer_list<std::string_view>* keys) const;
+  void expect_known(const std::string& name, int line,
+                    const std::initializer_list<std::string_view>* keys) const;
+  YamlValue value_of(const std::string& key, const YAML::Node& node) const;
+  void add_merged(const YAML::Node& node, std::vector<YAML::Node>& sources, int depth) const;
   const std::string& scalar(const char* expected) const;
   std::string found() const;
 

@@ -6,9 +6,10 @@
 
 namespace seine::planner {
 
-/// Drives a path of arcs exactly as it is: each arc from rest to rest at a trapezoid of speed, the wheel turned
-/// while the car stands (a wait of so long where the steering rate is limited). Slower than what the optimiser
-/// makes of the path, but it goes wherever the path goes, to the last millimetre, and keeps every limit.
+/// Drives a path of arcs exactly as it is: each arc from rest to rest at a trapezoid of speed, the wheel
+/// turned while the car stands (a wait of so long where the steering rate is limited). Slower than what the
+/// optimiser makes of the path, but it goes wherever the path goes, to the last millimetre, and keeps every
+/// limit.
 /// @param path         at least two points
 /// @param start_speed  m/s, signed: a car that is moving brakes on the path's first arc
 /// @return no segments where it cannot brake there

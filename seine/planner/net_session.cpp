@@ -4,12 +4,12 @@
 #include <cmath>
 #include <tuple>
 
-#include "seine/base/error.hpp"
 #include "seine/net/catch_rules.hpp"
+#include "seine/planner/faults.hpp"
 #include "seine/planner/formation_guess.hpp"
 #include "seine/planner/moving_bodies.hpp"
-#include "seine/planner/faults.hpp"
 #include "seine/planner/previous_fit.hpp"
+#include "seine/search/refusal.hpp"
 #include "seine/world/check.hpp"
 
 namespace seine::planner {
@@ -47,15 +47,11 @@ NetSession::NetSession(const world::Scenario& scenario, const Options& options)
       map_(scenario) {}
 
 PlanResult NetSession::run() {
-  const auto complaints = world::check(scenario_, map_);
-  if (!complaints.empty()) {
-    const std::string more =
-        complaints.size() > 1 ? " (and " + std::to_string(complaints.size() - 1) + " more)" : "";
-    throw InputError(scenario_.name + ": " + complaints.front() + more);
-  }
+  world::expect_sound(scenario_, map_);
   question_ = ask_net(scenario_, options_.without);
   if (!question_.refusal.empty()) {
     result_.reason = question_.refusal;
+    result_.impossible = true;
     return finish();
   }
   if (options_.previous == nullptr && stand()) return finish();
@@ -65,7 +61,8 @@ PlanResult NetSession::run() {
 }
 
 // A team which already stands where it should, and meets there what comes, stays. Where its catches lack what
-// is asked beyond the certificate it had better move: then standing is for the case that nothing else is found.
+// is asked beyond the certificate it had better move: then standing is for the case that nothing else is
+// found.
 bool NetSession::stand() {
   for (const world::Robot& robot : scenario_.robots) {
     if (robot.start_speed != 0.0) return false;
@@ -112,7 +109,8 @@ bool NetSession::guess(FormationGuesser& guesser, int attempt) {
   auto found = guesser.guess(attempt);
   result_.times.guess += watch.seconds();
   if (!found) {
-    if (result_.certificate.violations.empty()) result_.reason = "no passage for the formation found";
+    if (result_.certificate.violations.empty() && result_.reason.find("passage") == std::string::npos)
+      result_.reason = "no passage for the formation found" + search::narrowest_for_net(scenario_, map_);
     return false;
   }
   guess_ = std::move(*found);

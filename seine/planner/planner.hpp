@@ -61,6 +61,7 @@ struct Quality {
 struct PlanResult {
   bool certified = false;
   std::string reason = "not run";  ///< empty when certified
+  bool impossible = false;         ///< proved: the task has no plan, and `reason` says why
   /// Whether a published method calls itself successful, whatever the certificate says; absent for ours.
   std::optional<bool> claimed;
   traj::TeamTrajectory plan;  ///< only meaningful when certified or claimed

@@ -208,9 +208,14 @@ void set_corridor(trajopt::RobotTask& task, std::span<const geom::Pose2> poses,
   task.corridor = corridor::build(poses, task.model, map,
                                   {.reach = options.corridor_reach * length,
                                    .clearance = scenario.margins.obstacle + options.corridor_slack * length});
-  // In the tightest places the guess itself has no slack to give.
+  // In the tightest places the guess itself has no slack to give. A car that leaves the margin has less
+  // still, until it is out of it.
+  const double slack = options.corridor_slack * length, margin = scenario.margins.obstacle;
+  const double leaving = std::max(0.0, margin - scenario.margins.leaving.value_or(margin));
+  bool out = leaving <= 0.0;
   for (std::size_t i = 0; i < task.corridor.samples(); ++i) {
-    const double give = std::min(task.corridor.depth[i], options.corridor_slack * length);
+    out = out || task.corridor.depth[i] <= slack;
+    const double give = std::min(task.corridor.depth[i], slack + (out ? 0.0 : leaving));
     for (int k = task.corridor.begin[i]; k < task.corridor.begin[i + 1]; ++k)
       task.corridor.b[static_cast<std::size_t>(k)] += give;
   }

@@ -4,11 +4,9 @@
 #include <cmath>
 #include <iterator>
 
-#include "seine/base/error.hpp"
 #include "seine/certify/certificate.hpp"
 #include "seine/planner/groups.hpp"
 #include "seine/planner/moving_bodies.hpp"
-#include "seine/planner/net_session.hpp"
 #include "seine/planner/straight_hop.hpp"
 #include "seine/world/check.hpp"
 
@@ -46,12 +44,7 @@ Session::Session(const world::Scenario& scenario, const Options& options)
       asked_(scenario) {}
 
 PlanResult Session::run() {
-  const auto complaints = world::check(scenario_, map_);
-  if (!complaints.empty()) {
-    const std::string more =
-        complaints.size() > 1 ? " (and " + std::to_string(complaints.size() - 1) + " more)" : "";
-    throw InputError(scenario_.name + ": " + complaints.front() + more);
-  }
+  world::expect_sound(scenario_, map_);
   climb();
   return finish();
 }
@@ -64,6 +57,7 @@ void Session::climb() {
   for (int rung = 0; rung < (timed ? kMostRungs : kRungs) && !deadline_.expired(); ++rung) {
     const Attempt now = attempt(rung);
     if (!have_guess(now)) {
+      if (guess_.impossible) break;
       // That there is no way with more room says nothing.
       if (now.roomier == 0.0 && !now.gently && now.finer == 1.0 && ++failed_guesses == most_failed) break;
       continue;
@@ -107,7 +101,7 @@ bool Session::guess(std::uint64_t attempt) {
   result_.times.guess += watch.seconds();
   // Of a search that was cut short nothing is known; the reason of an earlier one stands.
   if (!guess_.complete && attempts_ == 0) {
-    if (!options.deadline.expired())
+    if (guess_.impossible || !options.deadline.expired())
       result_.reason = guess_.reason;
     else if (attempt == 0)
       result_.reason = "no guess for the whole team before the deadline";
@@ -337,11 +331,6 @@ std::vector<Session::Group> Session::raise_demands(int round) {
 
 void Session::report(const char* stage, double fraction) const {
   if (options_.progress) options_.progress({stage, fraction});
-}
-
-PlanResult plan(const world::Scenario& scenario, const Options& options) {
-  if (scenario.net) return NetSession(scenario, options).run();
-  return Session(scenario, options).run();
 }
 
 }  // namespace seine::planner

@@ -69,6 +69,7 @@ PlanResult Session::finish() {
   } else if (attempts_ > 0) {
     result_.reason = reason_to_give_up();
   }
+  result_.impossible = !result_.certified && guess_.impossible;
   result_.times.compute = watch_.seconds();
   return std::move(result_);
 }

@@ -8,9 +8,12 @@
 
 #include "seine/base/rng.hpp"
 #include "seine/base/workers.hpp"
+#include "seine/search/blockers.hpp"
 #include "seine/search/coordinator.hpp"
+#include "seine/search/leaving.hpp"
 #include "seine/search/path_planner.hpp"
 #include "seine/search/precedence.hpp"
+#include "seine/search/refusal.hpp"
 #include "seine/search/rolling_start.hpp"
 #include "seine/search/roundabout.hpp"
 #include "seine/search/side_step.hpp"
@@ -42,6 +45,7 @@ class Guess {
                                 std::span<const std::vector<geom::Vec2>> parked, int expansions) const;
   std::optional<Path> find_path_from(const world::Robot& who, const geom::Pose2& start,
                                      const PathOptions& options) const;
+  std::optional<Path> find_path_out(const world::Robot& who, const PathOptions& options) const;
   std::optional<Path> find_path_among(int robot, std::span<const Traffic> traffic, double pace,
                                       int patience) const;
   TeamSearch::Sources sources() const;
@@ -86,7 +90,23 @@ std::optional<Path> Guess::find_path(int robot, std::span<const Bump> bumps,
       .quickest = options_.quickest && bumps.empty() && parked.empty() &&
                   (scenario_.robots.size() == 1 || slow_reverse(scenario_.model_of(who).limits)),
       .deadline = options_.deadline};
-  return find_path_from(who, who.start, options);
+  return starts_inside_margin(scenario_, map_, who) ? find_path_out(who, options)
+                                                    : find_path_from(who, who.start, options);
+}
+
+// Out of the margin first, then as usual; the shortest of the ways that are found.
+std::optional<Path> Guess::find_path_out(const world::Robot& who, const PathOptions& options) const {
+  std::optional<Path> best;
+  for (Path& out : ways_out(scenario_, map_, who)) {
+    const int gear = out.points.front().gear;
+    if (gear * who.start_speed < 0.0 || (best && out.length() >= best->length())) continue;
+    const std::optional<Path> rest =
+        planners_[idx(who.model)].plan(out.points.back().pose, *who.goal, options);
+    if (!rest) continue;
+    Path path = joined(std::move(out), *rest);
+    if (!best || path.length() < best->length()) best = std::move(path);
+  }
+  return best;
 }
 
 std::optional<Path> Guess::find_path_among(int robot, std::span<const Traffic> traffic, double pace,
@@ -174,11 +194,10 @@ bool Guess::find_first_ways(Attempt& attempt) {
     if (!reason.empty() && guess_.reason.empty()) guess_.reason = who.name + " " + reason;
   }
   if (!guess_.reason.empty()) return false;
-  const char* none = options_.deadline.expired() ? "no time to find a path: " : "no path even alone: ";
   for (int i = 0; i < count; ++i)
     if (!attempt.coordinator->fixed(i) && attempt.coordinator->ways(i).empty())
-      guess_.reason += (guess_.reason.empty() ? none : ", ") + scenario_.robots[idx(i)].name;
-  return guess_.reason.empty();
+      guess_.without_way.push_back(i);
+  return guess_.without_way.empty();
 }
 
 // A repair wants something else: some of the robots that were tried before get a way that bends off their
@@ -275,10 +294,9 @@ void Guess::answer(const Attempt& attempt) {
     guess_.robots.push_back(placement ? attempt.coordinator->motion(i, *placement) : TimedPath{});
   }
   guess_.complete = attempt.complete;
-  if (guess_.complete || !guess_.reason.empty()) return;
-  guess_.reason = "no motion found among the others:";
+  if (guess_.complete || !guess_.without_way.empty() || !guess_.reason.empty()) return;
   for (std::size_t i = 0; i < attempt.state.size(); ++i)
-    if (!attempt.state[i]) guess_.reason += ' ' + scenario_.robots[i].name;
+    if (!attempt.state[i]) guess_.without_motion.push_back(static_cast<int>(i));
 }
 
 TeamGuess Guess::run() {
@@ -323,6 +341,13 @@ TeamGuess guess_team(const world::Scenario& scenario, const world::StaticMap& ma
     less.extra_robot_clearance = share * options.extra_robot_clearance;
     guess = Guess(scenario, map, less).run();
     guess.extra_robot_clearance = less.extra_robot_clearance;
+  }
+  if (!guess.without_way.empty()) {
+    Verdict verdict = why_no_ways(scenario, map, guess.without_way, options.deadline.expired());
+    guess.reason = std::move(verdict.reason);
+    guess.impossible = verdict.proved;
+  } else if (!guess.without_motion.empty()) {
+    guess.reason = why_no_motion(scenario, map, guess.without_motion, options.deadline);
   }
   return guess;
 }

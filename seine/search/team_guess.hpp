@@ -36,6 +36,9 @@ struct TeamGuess {
   std::vector<double>
       alone;           ///< s, arrival of each car if the others were not there (lower bound on its path)
   std::string reason;  ///< why not complete: names the robots
+  std::vector<int> without_way;     ///< robots that found no path even without the others
+  std::vector<int> without_motion;  ///< robots that found one, but no motion among the others
+  bool impossible = false;          ///< proved: no plan exists, another guess is of no use
   struct {
     double field = 0, paths = 0, coordinate = 0;
   } seconds;

@@ -99,4 +99,13 @@ double TeamTrajectory::makespan() const {
   return latest;
 }
 
+TeamTrajectory shifted(TeamTrajectory plan, geom::Vec2 by) {
+  for (RobotTrajectory& robot : plan.robots) {
+    if (robot.stands) robot.stands->x += by.x, robot.stands->y += by.y;
+    for (Segment& segment : robot.segments)
+      for (auto& [x, y] : segment.curve) x[0] += by.x, y[0] += by.y;
+  }
+  return plan;
+}
+
 }  // namespace seine::traj

@@ -56,6 +56,9 @@ struct TeamTrajectory {
   double makespan() const;  ///< s, latest arrival
 };
 
+/// The same motion `by` metres further on.
+TeamTrajectory shifted(TeamTrajectory plan, geom::Vec2 by);
+
 /// State on a segment `t` seconds after it began to move (t is clamped to [0, duration]); the result's `t` is
 /// that local time.
 State evaluate(const Segment& segment, double t);

@@ -7,8 +7,10 @@
 #include <numbers>
 #include <optional>
 
+#include "seine/base/error.hpp"
 #include "seine/geom/polygon.hpp"
 #include "seine/world/check_parts.hpp"
+#include "seine/world/granted_speed.hpp"
 #include "seine/world/net_check.hpp"
 
 namespace seine::world {
@@ -65,8 +67,10 @@ void check_world(const Scenario& scenario, Complaints& out) {
     out.push_back("the bounds [" + number(b.low.x) + ", " + number(b.low.y) + ", " + number(b.high.x) + ", " +
                   number(b.high.y) + "] hold no area, expected [xmin, ymin, xmax, ymax]");
   }
-  for (const auto& [what, margin] : {std::pair{"the margin between robots", scenario.margins.robot},
-                                     std::pair{"the margin to obstacles", scenario.margins.obstacle}}) {
+  for (const auto& [what, margin] :
+       {std::pair{"the margin between robots", scenario.margins.robot},
+        std::pair{"the margin to obstacles", scenario.margins.obstacle},
+        std::pair{"the margin while leaving", scenario.margins.leaving.value_or(0.0)}}) {
     require(margin >= 0.0 && std::isfinite(margin), what, margin, "zero or more", out);
   }
 }
@@ -163,6 +167,11 @@ void check_static(const Stand& stand, const StaticMap& map, double margin, Compl
   }
 }
 
+// Whether the car touches nothing that stands still, however near it is.
+bool stand_clear(const Stand& stand, const StaticMap& map) {
+  return map.clear(stand.footprint.core, 0.0);
+}
+
 void check_moving(const std::vector<Stand>& stands, const std::vector<Convex>& body, const geom::Pose2& pose,
                   const std::string& name, double margin, Complaints& out) {
   std::vector<double> worst(stands.size(), margin);
@@ -203,9 +212,9 @@ bool check_robot(const Scenario& scenario, std::size_t index, const std::vector<
   bool fine = model_fine[static_cast<std::size_t>(robot.model)];
   const vehicle::Limits& limits = scenario.model_of(robot).limits;
   const double limit = robot.start_speed < 0.0 ? limits.reverse_speed : limits.speed;
-  if (fine && !(std::abs(robot.start_speed) <= limit)) {
+  if (fine && !granted_speed(limits, robot.start_speed)) {
     out.push_back(who + " starts at " + number(robot.start_speed) + " m/s, faster than its limit of " +
-                  number(limit) + " m/s");
+                  number(limit) + " m/s and the 1 % granted to measured speeds");
   }
   if (!robot.goal && !scenario.net)
     out.push_back(who + " has no goal, which only a team with a net may lack");
@@ -236,10 +245,16 @@ std::vector<std::string> check(const Scenario& scenario, const StaticMap& map) {
   const auto usable = [](double given) { return given >= 0.0 && std::isfinite(given) ? given : 0.0; };
   const double margin = usable(scenario.margins.obstacle);
   for (const auto* stands : {&starts, &goals}) {
+    // A car may start where it is too near to something that stands still, if the scenario says so.
+    const bool start = stands == &starts;
+    const double least = start ? std::min(margin, scenario.margins.leaving.value_or(margin)) : margin;
     for (const Stand& stand : *stands) {
-      check_bounds(stand, map.bounds(), margin, out);
       const std::size_t before = out.size();
-      check_static(stand, map, margin, out);
+      check_bounds(stand, map.bounds(), least, out);
+      check_static(stand, map, least, out);
+      if (start && !scenario.margins.leaving && stand_clear(stand, map))
+        for (std::size_t i = before; i < out.size(); ++i)
+          out[i] += " (to let cars leave such places, give 'margins: {leaving: ...}' in m)";
       if (out.size() == before) check_cell(stand, scenario.map, out);
     }
     check_pairs(*stands, usable(scenario.margins.robot), out);
@@ -258,6 +273,14 @@ std::vector<std::string> check(const Scenario& scenario, const StaticMap& map) {
   }
   if (obstacles_fine) check_net(scenario, map, out);
   return out;
+}
+
+void expect_sound(const Scenario& scenario, const StaticMap& map) {
+  const Complaints complaints = check(scenario, map);
+  if (complaints.empty()) return;
+  const std::string more =
+      complaints.size() > 1 ? " (and " + std::to_string(complaints.size() - 1) + " more)" : "";
+  throw InputError(scenario.name + ": " + complaints.front() + more);
 }
 
 }  // namespace seine::world

@@ -15,4 +15,7 @@ namespace seine::world {
 /// finds. Poses of a car are not judged when its own numbers are already wrong.
 std::vector<std::string> check(const Scenario& scenario, const StaticMap& map);
 
+/// Throws InputError "<name>: <first complaint> (and 2 more)" when check has any.
+void expect_sound(const Scenario& scenario, const StaticMap& map);
+
 }  // namespace seine::world

@@ -71,11 +71,16 @@ inline bool Robot::rests_at_goal() const {
 struct Margins {
   double robot = 0.05;     ///< between footprints
   double obstacle = 0.05;  ///< of footprints to obstacles and to the bounds
+  /// To what stands still, for a car that starts nearer than `obstacle` to it: suffices until the car first
+  /// has the whole margin. Absent: no car may start so near.
+  std::optional<double> leaving{};
 };
 
 /// The question: who, where, among what, to where. Plain data; SI units, radians, one fixed frame.
 struct Scenario {
   std::string name;
+  /// Where the origin of all coordinates lies in those of the user, m: only messages add it.
+  geom::Vec2 origin;
   geom::Box bounds;  ///< footprints stay inside
   std::optional<geom::OccupancyGrid> map;
   std::vector<Obstacle> obstacles;

@@ -60,7 +60,7 @@ geom::Separation to_bounds(std::span<const Vec2> polygon, const Box& bounds) {
 
 }  // namespace
 
-StaticMap::StaticMap(const Scenario& scenario) : bounds_(scenario.bounds) {
+StaticMap::StaticMap(const Scenario& scenario) : bounds_(scenario.bounds), origin_(scenario.origin) {
   add_pieces(scenario);
   for (Piece& piece : pieces_) piece.box = piece.shape.box();
   build_buckets();
@@ -293,7 +293,8 @@ std::string StaticMap::describe(int piece) const {
   const Piece& p = pieces_[static_cast<std::size_t>(piece)];
   if (p.obstacle >= 0) return names_[static_cast<std::size_t>(p.obstacle)];
   char text[80];
-  std::snprintf(text, sizeof text, "the map at (%.2f, %.2f)", p.box.center().x, p.box.center().y);
+  const Vec2 at = origin_ + p.box.center();
+  std::snprintf(text, sizeof text, "the map at (%.2f, %.2f)", at.x, at.y);
   return text;
 }
 

@@ -91,6 +91,7 @@ class StaticMap {
   bool piece_clear(std::size_t piece, std::span<const geom::Vec2> polygon, double clearance) const;
 
   geom::Box bounds_;
+  geom::Vec2 origin_;  // Scenario::origin
   std::vector<Piece> pieces_;
   std::vector<std::string> names_;  // of obstacles
 

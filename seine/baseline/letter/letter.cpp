@@ -7,6 +7,7 @@
 #include "seine/baseline/letter/problem.hpp"
 #include "seine/net/flight.hpp"
 #include "seine/net/shape.hpp"
+#include "seine/planner/front_door.hpp"
 #include "seine/world/check.hpp"
 
 namespace seine::baseline::letter {
@@ -154,7 +155,9 @@ std::vector<std::string> Settings::complaints() const {
 
 planner::PlanResult plan(const world::Scenario& scenario, const planner::Options& options,
                          const Settings& settings) {
-  return Run(scenario, options, settings)();
+  return planner::by(
+      [&](const world::Scenario& task, const planner::Options& how) { return Run(task, how, settings)(); },
+      scenario, options);
 }
 
 }  // namespace seine::baseline::letter
