@@ -96,8 +96,8 @@ std::string summary(const world::Scenario& scenario, const planner::PlanResult& 
       printed("  planned in     %.3f s  guess %.3f, optimise %.3f, certify %.3f\n", times.compute,
               times.guess, times.corridor + times.optimise, times.certify);
   if (!result.certified) {
-    return (result.impossible ? "IMPOSSIBLE " : "NO PLAN for ") + scenario.name + ", " + team(scenario) +
-           ": " + result.reason + "\n" + claim(result) + spent;
+    return "NO PLAN for " + scenario.name + ", " + team(scenario) + ": " + result.reason + "\n" +
+           claim(result) + spent;
   }
   const planner::Quality& quality = result.quality;
   return "CERTIFIED  " + scenario.name + ", " + team(scenario) + "\n" +
