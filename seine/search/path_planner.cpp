@@ -368,11 +368,13 @@ std::optional<Route> PathPlanner::Impl::ladder(const geom::Pose2& start, const g
 
 std::optional<Route> PathPlanner::Impl::plan(const geom::Pose2& start, const geom::Pose2& goal,
                                              const PathOptions& options) {
+  // The ladder counts metres and likes long stretches; for a goal close by seconds decide.
+  std::optional<Route> move;
+  if (options.short_moves && options.bumps.empty())
+    move = short_move(start, goal, checker(start, goal, options));
+  if (move && move->arcs.size() == 1 && move->arcs.front().curvature == 0.0) return move;
   int left = options.max_expansions;
   std::optional<Route> route = ladder(start, goal, options, left, true);
-  // The ladder counts metres and likes long stretches; for a goal close by seconds decide.
-  if (!options.short_moves || !options.bumps.empty()) return route;
-  std::optional<Route> move = short_move(start, goal, checker(start, goal, options));
   if (move &&
       (!route || smooth_drive_time(move->arcs, model) < kQuicker * smooth_drive_time(route->arcs, model)))
     return move;
