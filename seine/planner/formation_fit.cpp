@@ -10,6 +10,9 @@
 namespace seine::planner {
 namespace {
 
+constexpr int kMostPieces =
+    64;  // of a curve or a clock: more cost more than they bring on ways of a few lengths
+
 using geom::Pose2;
 using geom::Vec2;
 
@@ -27,7 +30,7 @@ std::vector<Stretch> stretches_of(const FormationGuess& guess, const vehicle::Mo
   const search::TimedPath timed{guess.way.path, guess.timing.profile};
   const double t_a = model.limits.speed / model.limits.acceleration;
   const auto pieces_for = [](double ratio, int least) {
-    return std::clamp(static_cast<int>(std::lround(ratio)), least, traj::UniformMinco::kMaxPieces);
+    return std::clamp(static_cast<int>(std::lround(ratio)), least, kMostPieces);
   };
   const auto time_of = [&](double s) {
     for (const search::ProfileKnot& knot : timed.profile)

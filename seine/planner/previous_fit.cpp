@@ -9,6 +9,9 @@
 namespace seine::planner {
 namespace {
 
+constexpr int kMostPieces =
+    64;  // of a curve or a clock: more cost more than they bring on ways of a few lengths
+
 using geom::Vec2;
 
 // Less than this of a stretch is not worth a polynomial, s.
@@ -66,8 +69,8 @@ std::vector<Left> what_is_left(const traj::RobotTrajectory& car, double now, con
     const double share = 1.0 - progress_at(segment, from) / static_cast<double>(segment.curve.size());
     const auto pieces = static_cast<int>(std::lround(share * static_cast<double>(segment.curve.size())));
     const auto times = static_cast<int>(std::lround((to - from) / (options.piece_duration * t_a)));
-    left.push_back({i, from, to, wait, std::clamp(pieces, 3, traj::UniformMinco::kMaxPieces),
-                    std::clamp(times, 4, traj::UniformMinco::kMaxPieces)});
+    left.push_back(
+        {i, from, to, wait, std::clamp(pieces, 3, kMostPieces), std::clamp(times, 4, kMostPieces)});
   }
   return left;
 }

@@ -18,7 +18,7 @@ class UniformMinco {
  public:
   /// The shared, immutable instance for M pieces, 1 ≤ M ≤ kMaxPieces. Thread-safe.
   static const UniformMinco& with(int pieces);
-  static constexpr int kMaxPieces = 64;
+  static constexpr int kMaxPieces = 256;
 
   int pieces() const { return pieces_; }
   int rows() const { return pieces_ + 5; }

@@ -18,7 +18,7 @@ using search::PathPoint;
 
 constexpr double kTinyStretch = 0.05;  // car lengths: exact ends of Reeds-Shepp curves, left to the spline
 constexpr double kTinyShare = 0.1;     // of a way that is itself so short
-constexpr int kLeastPieces = 3;
+constexpr int kLeastPieces = 3, kMostPieces = 64;
 
 // A stretch of the path in one gear; s counts from its own start.
 struct Stretch {
@@ -94,7 +94,7 @@ SegmentTask segment_of(const Stretch& stretch, const vehicle::Model& model, cons
                          settings.acceleration_share * limits.acceleration);
   const double wanted = stretch.length() / (settings.piece_length * model.length());
   const int pieces =
-      std::clamp(static_cast<int>(std::lround(wanted)), kLeastPieces, traj::UniformMinco::kMaxPieces);
+      std::clamp(static_cast<int>(std::lround(wanted)), kLeastPieces, kMostPieces);
   SegmentTask task{.gear = stretch.gear, .piece_duration = timing.duration() / pieces};
   const auto pose_at = [&](double pieces_driven) {
     return pose_on(stretch, timing.driven(pieces_driven * task.piece_duration));
