@@ -52,7 +52,7 @@ PlanResult Session::run() {
       break;
     if (!guess_.complete) continue;
     if (deadline_.expired()) break;
-    prepare();
+    prepare(gently);
     optimise(gently);
     if (deadline_.expired()) break;
     polish();
@@ -93,11 +93,13 @@ bool Session::stop_and_steer() {
   return false;
 }
 
-void Session::prepare() {
+void Session::prepare(bool gently) {
   const Stopwatch watch;
   const std::size_t count = scenario_.robots.size();
   tasks_.assign(count, {});
   given_.assign(count, {});
+  const bool waits_matter =
+      guess_.effort.rescues > 0 || !std::ranges::all_of(scenario_.obstacles, world::stands_still);
   workers_.run(static_cast<int>(count), [&](int k) {
     const auto i = static_cast<std::size_t>(k);
     const world::Robot& robot = scenario_.robots[i];
@@ -106,6 +108,8 @@ void Session::prepare() {
       tasks_[i].model = scenario_.model_of(robot);
     else
       tasks_[i] = fit(guess_.robots[i], scenario_, scenario_.robots[i], map_);
+    // Who leaves early meets what it waits for: where that happened once, waits stay as they are.
+    tasks_[i].fixed_waits = gently && waits_matter;
   });
   settings_ = {};
   units_ = trajopt::units_of(tasks_);

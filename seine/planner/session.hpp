@@ -33,7 +33,7 @@ class Session {
 
   bool guess(std::uint64_t attempt);
   bool stop_and_steer();
-  void prepare();
+  void prepare(bool gently);
   void place_bodies();
   void optimise(bool gently);
   void solve_groups(const std::vector<Group>& groups, Start start);
