@@ -114,6 +114,8 @@ void Session::prepare(const Attempt& now) {
   const std::size_t count = scenario_.robots.size();
   tasks_.assign(count, {});
   given_.assign(count, {});
+  const bool waits_matter =
+      guess_.effort.rescues > 0 || !std::ranges::all_of(scenario_.obstacles, world::stands_still);
   workers_.run(static_cast<int>(count), [&](int k) {
     const auto i = static_cast<std::size_t>(k);
     const world::Robot& robot = scenario_.robots[i];
@@ -122,6 +124,8 @@ void Session::prepare(const Attempt& now) {
       tasks_[i].model = scenario_.model_of(robot);
     else
       tasks_[i] = fit(guess_.robots[i], asked_, asked_.robots[i], map_, {.finer = now.finer});
+    // What leaves early meets what it waits for: where that happened once, waits stay as they are.
+    tasks_[i].fixed_waits = now.gently && waits_matter;
   });
   settings_ = {};
   units_ = trajopt::units_of(tasks_);

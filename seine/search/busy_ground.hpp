@@ -15,18 +15,32 @@ struct Span {
 /// When the ground that a car covers is needed by the traffic.
 class BusyGround {
  public:
-  BusyGround(std::span<const Traffic> traffic, const SweptFootprint& footprint, double tick);
+  /// @param grain m: what moves less is taken as one
+  BusyGround(std::span<const Traffic> traffic, const SweptFootprint& footprint, double tick, double grain);
 
   /// When the traffic comes too close to a car that stands at `pose`, or anywhere within `slack` of it:
   /// ascending, disjoint. Valid until the next call.
   std::span<const Span> busy(const geom::Pose2& pose, const Slack& slack = {});
 
  private:
-  void add(const Traffic& other, const geom::Box& box, const OrientedBox& turned);
+  // A few events of one body as one: their hull, and from when to when.
+  struct Piece {
+    geom::Box box;
+    Span span;
+    std::size_t begin, end;  // corners
+    double clearance;
+  };
+  struct Chunk {
+    geom::Box box;  // inflated by the clearance
+    std::size_t first, last;
+  };
+  void add(const Traffic& other, double tick, double grain);
+  void close_chunk(std::size_t first);
 
-  std::span<const Traffic> traffic_;
   const SweptFootprint& footprint_;
-  double tick_;
+  std::vector<Piece> pieces_;
+  std::vector<Chunk> chunks_;
+  std::vector<geom::Vec2> corners_;
   std::vector<geom::Vec2> polygon_;
   std::vector<Span> spans_;
 };

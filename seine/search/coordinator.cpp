@@ -51,6 +51,7 @@ Coordinator::Coordinator(const world::Scenario& scenario, const LatticeOptions& 
                      geom::placed(body, *robot.goal).core});
   }
   const std::vector<MovingPart> parts = moving_parts(scenario);
+  for (const MovingPart& part : parts) part_of_.push_back(part.obstacle);
   obstacles_.resize(clocks_.size());
   for (std::size_t c = 0; c < clocks_.size(); ++c)
     for (const MovingPart& part : parts) obstacles_[c].emplace_back(part.shape, part.motion, clocks_[c]);
@@ -242,7 +243,8 @@ std::vector<Coordinator::Conflict> Coordinator::conflicts(int robot, const Way& 
     const int tick = first_hit(on.unhindered, taken(robot, on, other, state, workspace));
     if (tick < 0) continue;
     const auto at = std::min(idx(tick), on.unhindered.tested.size() - 1);
-    found.push_back({std::max(other, -1), tick, on.unhindered.tested[at]});
+    const int obstacle = other < 0 ? part_of_[idx(-1 - other)] : -1;
+    found.push_back({std::max(other, -1), tick, on.unhindered.tested[at], obstacle});
   }
   std::stable_sort(found.begin(), found.end(),
                    [](const Conflict& a, const Conflict& b) { return a.tick < b.tick; });

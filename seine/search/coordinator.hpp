@@ -103,6 +103,7 @@ class Coordinator {
     int robot;  ///< −1: a moving obstacle
     int tick;
     int unit;
+    int obstacle;  ///< index into Scenario::obstacles, −1 when it is a robot
   };
   std::vector<Conflict> conflicts(int robot, const Way& way, const TeamState& state,
                                   CoordinatorWorkspace& workspace) const;
@@ -145,6 +146,7 @@ class Coordinator {
   std::vector<double> clocks_;  // s, the distinct ticks
   std::vector<Car> cars_;
   std::vector<std::vector<MovingBody>> obstacles_;  // by clock
+  std::vector<int> part_of_;                        // by part: index into Scenario::obstacles
   mutable std::atomic<std::uint32_t> serial_{0};
 };
 

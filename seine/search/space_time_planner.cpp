@@ -46,7 +46,7 @@ std::vector<Traffic> SpaceTimePlanner::with_extra(const geom::Pose2& start, cons
   std::vector<Traffic> wished(traffic.begin(), traffic.end());
   for (Traffic& other : wished) {
     other.clearance += extra;
-    BusyGround ground({&other, 1}, footprint_, grid_.half_step());
+    BusyGround ground({&other, 1}, footprint_, grid_.half_step(), 0.0);
     const std::span<const Span> at_start = ground.busy(start);
     bool tight = !at_start.empty() && at_start.front().begin <= 0.0;
     const std::span<const Span> at_goal = ground.busy(goal);

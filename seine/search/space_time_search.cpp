@@ -18,6 +18,7 @@ using vehicle::Arc;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kWords = 3;    // Reeds-Shepp words tried per shot
 constexpr double kSample = 0.2;      // car lengths between the places at which a move is tested
+constexpr double kGrain = 0.1;       // car lengths: what moves less is looked at as one
 constexpr double kReverse = 0.3;     // what a second backwards costs more than one forwards
 constexpr double kGearChange = 0.5;  // turning radii at full pace, beside stopping and starting
 constexpr double kSteering = 0.05;   // turning radii at full pace, from straight to the tightest turn
@@ -58,7 +59,8 @@ class SpaceTime {
   SpaceTime(const SpaceTimeProblem& problem, const SpaceTimeSettings& settings)
       : p_(problem),
         s_(settings),
-        ground_(problem.traffic, *problem.footprint, problem.grid->half_step()),
+        ground_(problem.traffic, *problem.footprint, problem.grid->half_step(),
+                kGrain * problem.checker->model().length()),
         moves_(Primitives::fan(problem.radius, settings.step, settings.forward,
                                problem.grid->reverse_speed > 0.0 ? settings.backward : 0)),
         top_(settings.speed_share * problem.grid->speed),

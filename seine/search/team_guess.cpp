@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <deque>
 #include <memory>
 #include <numeric>
@@ -46,8 +47,8 @@ class Guess {
   std::optional<Path> find_path_from(const world::Robot& who, const geom::Pose2& start,
                                      const PathOptions& options) const;
   std::optional<Path> find_path_out(const world::Robot& who, const PathOptions& options) const;
-  std::optional<Path> find_path_among(int robot, std::span<const Traffic> traffic, double pace,
-                                      int patience) const;
+  std::optional<Path> find_path_among(int robot, std::span<const Traffic> traffic,
+                                      const TeamSearch::Sources::Among& how) const;
   TeamSearch::Sources sources() const;
   Attempt new_attempt() const;
   bool find_first_ways(Attempt& attempt);
@@ -56,6 +57,7 @@ class Guess {
   void coordinate(Attempt& attempt);
   std::optional<Attempt> go_round(const Attempt& straight);
   Attempt by_ring(const Attempt& straight, const Crossing& crossing, double radius);
+  std::string first_meeting(const Attempt& attempt, int robot) const;
   void answer(const Attempt& attempt);
 
   const world::Scenario& scenario_;
@@ -109,8 +111,8 @@ std::optional<Path> Guess::find_path_out(const world::Robot& who, const PathOpti
   return best;
 }
 
-std::optional<Path> Guess::find_path_among(int robot, std::span<const Traffic> traffic, double pace,
-                                           int patience) const {
+std::optional<Path> Guess::find_path_among(int robot, std::span<const Traffic> traffic,
+                                           const TeamSearch::Sources::Among& how) const {
   const world::Robot& who = scenario_.robots[idx(robot)];
   if (who.start_speed != 0.0) return std::nullopt;
   std::unique_ptr<SpaceTimePlanner>& planner = among_[idx(who.model)];
@@ -121,8 +123,9 @@ std::optional<Path> Guess::find_path_among(int robot, std::span<const Traffic> t
   return planner->plan(who.start, *who.goal, traffic,
                        {.clearance = scenario_.margins.obstacle,
                         .extra = kExtra * model.length(),
-                        .pace = pace,
-                        .patience = patience,
+                        .pace = how.pace,
+                        .patience = how.patience,
+                        .hurry = how.hurry,
                         .deadline = options_.deadline});
 }
 
@@ -159,8 +162,8 @@ TeamSearch::Sources Guess::sources() const {
           [this](int robot, const Path& path, double s, double offset, double beside) {
             return side_steps_[idx(scenario_.robots[idx(robot)].model)].around(path, s, offset, beside);
           },
-          [this](int robot, std::span<const Traffic> traffic, double pace, int patience) {
-            return find_path_among(robot, traffic, pace, patience);
+          [this](int robot, std::span<const Traffic> traffic, const TeamSearch::Sources::Among& how) {
+            return find_path_among(robot, traffic, how);
           }};
 }
 
@@ -288,6 +291,23 @@ Attempt Guess::by_ring(const Attempt& straight, const Crossing& crossing, double
   return attempt;
 }
 
+// " (would meet obstacle 3 at t = 5.2 s)": what is first in the way of its quickest drive.
+std::string Guess::first_meeting(const Attempt& attempt, int robot) const {
+  const Coordinator& coordinator = *attempt.coordinator;
+  if (coordinator.ways(robot).empty()) return "";
+  CoordinatorWorkspace workspace;
+  const auto conflicts =
+      coordinator.conflicts(robot, *coordinator.ways(robot).front(), attempt.state, workspace);
+  if (conflicts.empty()) return "";
+  const Coordinator::Conflict& first = conflicts.front();
+  std::string other = first.robot >= 0 ? scenario_.robots[idx(first.robot)].name
+                                       : scenario_.obstacles[idx(first.obstacle)].name;
+  if (other.empty()) other = "obstacle " + std::to_string(first.obstacle + 1);
+  char text[96];
+  std::snprintf(text, sizeof text, " at t = %.1f s", first.tick * coordinator.grid(robot).half_step());
+  return "; on its way " + scenario_.robots[idx(robot)].name + " would meet " + other + text;
+}
+
 void Guess::answer(const Attempt& attempt) {
   for (int i = 0; i < attempt.coordinator->robots(); ++i) {
     const auto& placement = attempt.state[idx(i)];
@@ -296,7 +316,10 @@ void Guess::answer(const Attempt& attempt) {
   guess_.complete = attempt.complete;
   if (guess_.complete || !guess_.without_way.empty() || !guess_.reason.empty()) return;
   for (std::size_t i = 0; i < attempt.state.size(); ++i)
-    if (!attempt.state[i]) guess_.without_motion.push_back(static_cast<int>(i));
+    if (!attempt.state[i]) {
+      guess_.without_motion.push_back(static_cast<int>(i));
+      guess_.meetings += first_meeting(attempt, static_cast<int>(i));
+    }
 }
 
 TeamGuess Guess::run() {

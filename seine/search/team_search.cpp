@@ -60,7 +60,10 @@ bool TeamSearch::solve(TeamState& state, const Deadline& deadline, std::span<con
     pass(order, state, deadline);
     repair(state, deadline);
     const int left = unplaced(state);
-    if (left == 0) return true;
+    if (left == 0) {
+      overtake(state);
+      return true;
+    }
     if (attempt == 0 && rescue(state, given, deadline)) return true;
     if (left < fewest) {
       fewest = left;
@@ -219,13 +222,25 @@ TeamSearch::Placed TeamSearch::among(int robot, const TeamState& state, Placed b
   }
   for (const double pace : {0.7, 0.4}) {
     ++effort_.rescues;
-    std::optional<Path> path = sources_.among(robot, traffic, pace, patience);
+    std::optional<Path> path = sources_.among(robot, traffic, {pace, patience, best != nullptr});
     if (!path) break;
     const Placed placed = place_along(robot, *path, state);
     if (placed && (!best || placed->arrival < best->arrival)) best = placed;
     if (placed) break;
   }
   return best;
+}
+
+// Who waits long for moving obstacles may be quicker around them.
+void TeamSearch::overtake(TeamState& state) {
+  const auto& obstacles = coordinator_.scenario().obstacles;
+  if (std::all_of(obstacles.begin(), obstacles.end(), world::stands_still)) return;
+  for (int robot = 0; robot < coordinator_.robots(); ++robot) {
+    if (coordinator_.fixed(robot)) continue;
+    TeamState others = state;
+    others[idx(robot)] = nullptr;
+    state[idx(robot)] = among(robot, others, state[idx(robot)], 0);
+  }
 }
 
 // A path around where everything that moves comes to rest: all it may take beside it is patience.

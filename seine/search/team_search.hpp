@@ -48,9 +48,13 @@ class TeamSearch {
     /// length s.
     std::function<std::optional<Path>(int robot, const Path& path, double s, double offset, double beside)>
         side_step;
-    /// A path that can be driven in time among the traffic, at `pace` of the car's speed where it drives.
-    std::function<std::optional<Path>(int robot, std::span<const Traffic> traffic, double pace, int patience)>
-        among;
+    /// A path that can be driven in time among the traffic.
+    struct Among {
+      double pace;   ///< of the car's speed where it drives
+      int patience;  ///< as SpaceTimeOptions
+      bool hurry;    ///< likewise
+    };
+    std::function<std::optional<Path>(int robot, std::span<const Traffic> traffic, const Among& how)> among;
   };
 
   TeamSearch(Coordinator& coordinator, Sources sources, const TeamSearchOptions& options, std::uint64_t seed);
@@ -78,6 +82,7 @@ class TeamSearch {
   Placed detour(int robot, const TeamState& state, Placed best, int tries);
   Placed around_the_parked(int robot, const TeamState& state, bool goals);
   Placed among(int robot, const TeamState& state, Placed best, int patience);
+  void overtake(TeamState& state);
   Placed around_the_resting(int robot, const TeamState& state, std::span<const Traffic> traffic);
   bool rescue(TeamState& state, const TeamState& given, const Deadline& deadline);
   bool may_search() const;

@@ -80,7 +80,8 @@ void RobotProblem::lay_out(const RobotTask& task, const Units& units) {
     s.progress = variables_, variables_ += s.time_pieces - 1;
     s.length = variables_++;
     s.duration = variables_++;
-    s.wait = guess.wait > kShortestWait ? variables_++ : -1;
+    s.held = task.fixed_waits ? guess.wait : 0.0;
+    s.wait = guess.wait > kShortestWait && !task.fixed_waits ? variables_++ : -1;
     s.speed_limit = guess.gear > 0 ? model_.limits.speed : model_.limits.reverse_speed;
     segments_.push_back(s);
   }
@@ -192,7 +193,7 @@ void RobotProblem::load(std::span<const double> point) {
   for (std::size_t i = 0; i < segments_.size(); ++i) {
     Segment& s = segments_[i];
     s.l = std::exp(at(s.length)), s.h = std::exp(at(s.duration));
-    s.start = arrival_ + (s.wait >= 0 ? std::exp(at(s.wait)) : 0.0);
+    s.start = arrival_ + (s.wait >= 0 ? std::exp(at(s.wait)) : s.held);
     s.g_l = s.g_h = s.g_start = 0.0;
     arrival_ = s.start + s.h * s.time_pieces;
     load_segment(i, x);

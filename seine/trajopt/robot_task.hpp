@@ -33,6 +33,7 @@ struct RobotTask {
   double start_speed = 0.0;         ///< m/s, signed
   std::optional<geom::Pose2> goal;  ///< absent: the end pose is free
   bool fixed_cusps = false;         ///< gear changes stay where the guess has them
+  bool fixed_waits = false;         ///< waits stay as long as in the guess
   std::vector<SegmentGuess> segments;
   /// Half-planes at every curve sample: kCurveLanes a piece, pieces of all segments in a row; where the end
   /// is free, at the end pose as well.

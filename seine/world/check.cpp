@@ -101,6 +101,7 @@ bool check_obstacle(const Obstacle& obstacle, const std::string& name, Complaint
 // A car at one of its ends.
 struct Stand {
   std::string who;   // "car0 at its start"
+  std::string car;   // "car0"
   Convex footprint;  // in the world
   geom::Box box;
 };
@@ -108,6 +109,7 @@ struct Stand {
 Stand stand_of(const Scenario& scenario, std::size_t robot, bool goal) {
   const Robot& r = scenario.robots[robot];
   Stand stand{name_of(r, robot) + (goal ? " at its goal" : " at its start"),
+              name_of(r, robot),
               geom::placed({scenario.model_of(r).footprint, 0.0}, goal ? *r.goal : r.start),
               {}};
   stand.box = stand.footprint.box();
@@ -186,6 +188,42 @@ void check_moving(const std::vector<Stand>& stands, const std::vector<Convex>& b
   }
   for (std::size_t i = 0; i < stands.size(); ++i)
     complain_if_near(stands[i].who, name, worst[i], margin, out);
+}
+
+double distance_at(const Stand& stand, const std::vector<Convex>& body, const geom::Pose2& pose) {
+  double distance = std::numeric_limits<double>::infinity();
+  for (const Convex& part : body)
+    distance = std::min(distance, geom::separation(stand.footprint, geom::placed(part, pose)).distance);
+  return distance;
+}
+
+// From when on the obstacle is nearer than the margin for good, which it is at its last place.
+double near_from(const Stand& stand, const std::vector<Convex>& body, const std::vector<Waypoint>& motion,
+                 double margin) {
+  constexpr int kSteps = 200;
+  for (std::size_t i = motion.size() - 1; i > 0; --i) {
+    const Waypoint &a = motion[i - 1], &b = motion[i];
+    for (int k = kSteps - 1; k >= 0; --k) {
+      const double f = static_cast<double>(k) / kSteps;
+      const geom::Pose2 pose{a.pose.x + f * (b.pose.x - a.pose.x), a.pose.y + f * (b.pose.y - a.pose.y),
+                             a.pose.heading + f * geom::wrap_angle(b.pose.heading - a.pose.heading)};
+      if (distance_at(stand, body, pose) >= margin) return a.t + (f + 1.0 / kSteps) * (b.t - a.t);
+    }
+  }
+  return 0.0;
+}
+
+// Obstacles that stop on a goal.
+void check_last_place(const std::vector<Stand>& goals, const std::vector<Convex>& body,
+                      const std::vector<Waypoint>& motion, const std::string& name, double margin,
+                      Complaints& out) {
+  for (const Stand& goal : goals) {
+    const double distance = distance_at(goal, body, motion.back().pose);
+    if (distance >= margin - kTolerance) continue;
+    out.push_back("the goal of " + goal.car + " is blocked from t = " +
+                  number(std::max(0.0, near_from(goal, body, motion, margin))) + " s on by " + name +
+                  ", which comes to rest " + (distance > 0.0 ? metres(distance) + " from it" : "on it"));
+  }
 }
 
 void check_pairs(const std::vector<Stand>& stands, double margin, Complaints& out) {
@@ -268,8 +306,7 @@ std::vector<std::string> check(const Scenario& scenario, const StaticMap& map) {
     if (!fine || stands_still(obstacle)) continue;
     const std::vector<Convex> body = body_of(obstacle);
     check_moving(starts, body, pose_at_start(obstacle.motion), name + " (moving, at t = 0)", margin, out);
-    check_moving(goals, body, obstacle.motion.back().pose, name + " (moving, where it comes to rest)", margin,
-                 out);
+    check_last_place(goals, body, obstacle.motion, name, margin, out);
   }
   if (obstacles_fine) check_net(scenario, map, out);
   return out;
