@@ -46,37 +46,49 @@ Body at_rest(const world::Obstacle& obstacle, std::size_t index) {
 
 class Explanation {
  public:
-  Explanation(const world::Scenario& scenario, const world::StaticMap& map, int robot,
-              const Deadline& deadline)
-      : scenario_(scenario),
-        car_(scenario.robots[static_cast<std::size_t>(robot)]),
-        planner_(map, scenario.model_of(car_)),
-        deadline_(deadline) {
-    for (std::size_t j = 0; j < scenario.robots.size(); ++j) {
-      const world::Robot& other = scenario.robots[j];
-      if (static_cast<int>(j) == robot || !other.goal) continue;
-      const auto& footprint = scenario.model_of(other).footprint;
-      const std::string name = world::name_of(other, j);
-      ends_.push_back({name + " stands at its goal", {placed(footprint, *other.goal)}});
-      starts_.push_back({name + " has not left its start", {placed(footprint, other.start)}});
-    }
-    for (std::size_t i = 0; i < scenario.obstacles.size(); ++i)
-      if (!world::stands_still(scenario.obstacles[i])) ends_.push_back(at_rest(scenario.obstacles[i], i));
+  Explanation(const world::Scenario& scenario, const world::StaticMap& map, const Deadline& deadline)
+      : scenario_(scenario), deadline_(deadline) {
+    for (const vehicle::Model& model : scenario.models) planners_.emplace_back(map, model);
   }
 
-  std::string text() {
-    if (const std::string who = blockers(ends_); !who.empty())
-      return car_.name + " finds no way to its goal once " + who;
-    if (const std::string who = blockers(starts_); !who.empty())
-      return car_.name + " finds no way to its goal while " + who;
-    return car_.name + " has a way, but no time was found to drive it among what moves";
+  std::string text(std::size_t robot) const {
+    const std::string name = name_of(robot);
+    std::vector<Body> ends, starts;
+    for (std::size_t j = 0; j < scenario_.robots.size(); ++j) {
+      if (j == robot || !scenario_.robots[j].goal) continue;
+      ends.push_back(at_goal(j));
+      starts.push_back(
+          {name_of(j) + " has not left its start", {placed(footprint(j), scenario_.robots[j].start)}});
+    }
+    for (std::size_t i = 0; i < scenario_.obstacles.size(); ++i)
+      if (!world::stands_still(scenario_.obstacles[i])) ends.push_back(at_rest(scenario_.obstacles[i], i));
+    if (const std::string who = blockers(robot, ends, "all others have come to rest"); !who.empty())
+      return name + " finds no way to its goal once " + who;
+    if (const std::string who = blockers(robot, starts, "all others stand at their starts"); !who.empty())
+      return name + " finds no way to its goal while " + who;
+    // It may be the one that is in the way.
+    for (std::size_t j = 0; j < std::min(kMost, scenario_.robots.size()); ++j)
+      if (j != robot && scenario_.robots[j].goal && !way_past(j, at_goal(robot).footprints) &&
+          !deadline_.expired())
+        return name_of(j) + " finds no way to its goal once " + at_goal(robot).what;
+    return name + " has a way, but no time was found to drive it among what moves";
   }
 
  private:
-  bool way_past(std::span<const std::vector<geom::Vec2>> parked) const {
+  std::string name_of(std::size_t robot) const { return world::name_of(scenario_.robots[robot], robot); }
+  const std::vector<geom::Vec2>& footprint(std::size_t robot) const {
+    return scenario_.model_of(scenario_.robots[robot]).footprint;
+  }
+  Body at_goal(std::size_t robot) const {
+    return {name_of(robot) + " stands at its goal",
+            {placed(footprint(robot), *scenario_.robots[robot].goal)}};
+  }
+
+  bool way_past(std::size_t robot, std::span<const std::vector<geom::Vec2>> parked) const {
     const world::Margins& margins = scenario_.margins;
-    return planner_
-        .plan(car_.start, *car_.goal,
+    const world::Robot& car = scenario_.robots[robot];
+    return planners_[static_cast<std::size_t>(car.model)]
+        .plan(car.start, *car.goal,
               {.max_expansions = kPatience,
                .clearance = margins.obstacle,
                .parked = parked,
@@ -85,24 +97,21 @@ class Explanation {
         .has_value();
   }
 
-  /// Who of them closes the way alone, or that only all together do; empty when the way is open.
-  std::string blockers(const std::vector<Body>& bodies) const {
+  /// Who of them closes the way alone, or that only `together` they do; empty when the way is open.
+  std::string blockers(std::size_t robot, const std::vector<Body>& bodies, const char* together) const {
     std::vector<std::vector<geom::Vec2>> all;
     for (const Body& body : bodies) all.insert(all.end(), body.footprints.begin(), body.footprints.end());
-    if (all.empty() || deadline_.expired() || way_past(all) || deadline_.expired()) return "";
+    if (all.empty() || deadline_.expired() || way_past(robot, all) || deadline_.expired()) return "";
     std::string who;
     for (std::size_t i = 0; i < std::min(kMost, bodies.size()); ++i)
-      if (!way_past(bodies[i].footprints) && !deadline_.expired())
+      if (!way_past(robot, bodies[i].footprints) && !deadline_.expired())
         who += (who.empty() ? "" : " or ") + bodies[i].what;
-    if (!who.empty() || deadline_.expired()) return who;
-    return &bodies == &ends_ ? "all others have come to rest" : "all others stand at their starts";
+    return who.empty() && !deadline_.expired() ? together : who;
   }
 
   const world::Scenario& scenario_;
-  const world::Robot& car_;
-  PathPlanner planner_;
   const Deadline& deadline_;
-  std::vector<Body> ends_, starts_;
+  std::vector<PathPlanner> planners_;  // one for each model
 };
 
 }  // namespace
@@ -110,10 +119,9 @@ class Explanation {
 std::string why_no_motion(const world::Scenario& scenario, const world::StaticMap& map,
                           std::span<const int> robots, const Deadline& deadline) {
   std::string all = "no motion found among the others: ";
-  for (std::size_t i = 0; i < std::min(kInFull, robots.size()); ++i) {
-    if (i > 0) all += "; ";
-    all += Explanation(scenario, map, robots[i], deadline).text();
-  }
+  const Explanation explanation(scenario, map, deadline);
+  for (std::size_t i = 0; i < std::min(kInFull, robots.size()); ++i)
+    all += (i > 0 ? "; " : "") + explanation.text(static_cast<std::size_t>(robots[i]));
   if (robots.size() > kInFull) all += "; and " + std::to_string(robots.size() - kInFull) + " more cars";
   return all;
 }

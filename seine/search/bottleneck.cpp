@@ -147,25 +147,27 @@ class Flood {
   long taken_ = 0, wide_ = 0;
 };
 
-/// Uphill in distance for a coarse cell or so: a way on those runs beside the middle of a passage.
-Cell climbed(Grid& grid, Cell at) {
-  for (int steps = 0; steps < kFiner; ++steps) {
+/// Uphill in distance until there is `enough`, but not further than a coarse cell or so, which may lead out
+/// of a passage: a way on coarse cells runs beside its middle.
+Cell climbed(Grid& grid, Cell at, double enough) {
+  for (int steps = 0; steps < 3 * kFiner / 2 && grid.at(at) < enough; ++steps) {
     Cell best = at;
     for (int dy = -1; dy <= 1; ++dy)
       for (int dx = -1; dx <= 1; ++dx) {
         const Cell next{at.column + dx, at.row + dy};
         if (grid.inside(next) && grid.at(next) > grid.at(best)) best = next;
       }
-    if (best == at) return at;
+    if (best == at) break;
     at = best;
   }
   return at;
 }
 
-/// Looks at the narrowest place of a way ever more closely, between the points where the way enters and
-/// leaves a window around it. Returns the distance there, m, and moves `at` to its middle.
-double zoom(const world::StaticMap& map, std::vector<Vec2> way, double cell, double cap, Vec2& at) {
-  double distance = 0.0;
+/// Looks at the narrowest place of a way (`distance` m wide to either side) ever more closely, between the
+/// points where the way enters and leaves a window around it. Returns the distance there, m, and moves `at`
+/// to its middle.
+double zoom(const world::StaticMap& map, std::vector<Vec2> way, double cell, double cap, double distance,
+            Vec2& at) {
   for (int level = 0; level < kZooms; ++level) {
     const double reach = kWindow * cell;
     const geom::Box window = geom::Box{at, at}.inflated(reach);
@@ -177,9 +179,11 @@ double zoom(const world::StaticMap& map, std::vector<Vec2> way, double cell, dou
     auto first = here, last = here;
     while (first != way.begin() && close(*(first - 1))) --first;
     while (last + 1 != way.end() && close(*(last + 1))) ++last;
+    const double enough = distance + 1.5 * cell;  // more than the narrowest place can have
     cell /= kFiner;
     Grid grid(map, window, cell, cap);
-    Flood flood(grid, climbed(grid, grid.nearest(*first)), climbed(grid, grid.nearest(*last)));
+    Flood flood(grid, climbed(grid, grid.nearest(*first), enough),
+                climbed(grid, grid.nearest(*last), enough));
     while (!flood.step()) {
     }
     distance = flood.narrowest().distance;
@@ -211,7 +215,7 @@ std::optional<Bottleneck> look(const world::StaticMap& map, Vec2 from, Vec2 to, 
   result.nearer_to_goal = done == &back, result.smaller_side = done->area();
   std::vector<Vec2> way;
   for (const Cell c : done->way()) way.push_back(grid.middle(c));
-  const double distance = zoom(map, std::move(way), cell, 1.1 * cap, result.at);
+  const double distance = zoom(map, std::move(way), cell, 1.1 * cap, narrowest.distance, result.at);
   result.width = std::clamp(2.0 * distance, 0.0, result.upper_width);
   return result;
 }

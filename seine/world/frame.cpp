@@ -7,6 +7,11 @@ namespace seine::world {
 namespace {
 
 constexpr double kFar = 1000.0;  // m
+constexpr double kPerMetre = 1e7;
+
+double snapped(double coordinate) {
+  return std::round(coordinate * kPerMetre) / kPerMetre;
+}
 
 }  // namespace
 
@@ -14,12 +19,14 @@ std::optional<geom::Vec2> local_origin(const Scenario& scenario) {
   const geom::Vec2 middle = scenario.bounds.center();
   const double off = std::max(std::abs(middle.x), std::abs(middle.y));
   if (!(off > kFar) || !std::isfinite(off)) return std::nullopt;
-  return geom::Vec2{std::floor(middle.x + 0.5), std::floor(middle.y + 0.5)};
+  return geom::Vec2{snapped(middle.x), snapped(middle.y)};
 }
 
 Scenario seen_from(const Scenario& scenario, geom::Vec2 origin) {
   Scenario result = scenario;
-  const auto move = [&](auto& place) { place.x -= origin.x, place.y -= origin.y; };
+  const auto move = [&](auto& place) {
+    place.x = snapped(place.x - origin.x), place.y = snapped(place.y - origin.y);
+  };
   move(result.bounds.low);
   move(result.bounds.high);
   if (result.map) move(result.map->origin);

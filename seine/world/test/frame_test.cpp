@@ -15,7 +15,7 @@ TEST(Frame, IsTheOriginNearIt) {
   const Scenario far = seen_from(near, {-448125.0, -5411825.0});
   const auto origin = local_origin(far);
   ASSERT_TRUE(origin);
-  EXPECT_EQ(origin->x, 448125.0 + std::floor(near.bounds.center().x + 0.5));
+  EXPECT_EQ(origin->x, 448125.0 + near.bounds.center().x);
   const Scenario back = seen_from(far, *origin);
   EXPECT_EQ(back.origin + geom::Vec2{}, *origin + far.origin);
   EXPECT_TRUE(check(far, StaticMap(far)).empty());
@@ -37,6 +37,22 @@ TEST(Frame, MovesEverythingAlike) {
   }
   EXPECT_EQ(moved.obstacles.back().motion[1].pose.x, -14.0);
   EXPECT_EQ(moved.robots[1].goal->y, s.robots[1].goal->y + 32.0);
+}
+
+TEST(Frame, OfNumbersWithFewDecimalsIsTheSameAnywhere) {
+  Scenario s;
+  s.bounds = {{-8, -8}, {8, 8}};
+  s.robots = {{.name = "a", .start = {-1.5, -4.8, 0.3}, .goal = geom::Pose2{6.5, 0.1234567, 0}}};
+  for (const geom::Vec2 by : {geom::Vec2{448125.0, 5411825.0}, {300000.25, 9999000.7}, {-2e7, 1234567.891}}) {
+    Scenario far = s;
+    far.bounds = {far.bounds.low + by, far.bounds.high + by};
+    far.robots[0].start.x += by.x, far.robots[0].start.y += by.y;
+    far.robots[0].goal->x += by.x, far.robots[0].goal->y += by.y;
+    const Scenario back = seen_from(far, *local_origin(far));
+    EXPECT_EQ(back.robots[0].start, s.robots[0].start);
+    EXPECT_EQ(*back.robots[0].goal, *s.robots[0].goal);
+    EXPECT_EQ(back.bounds.low, s.bounds.low);
+  }
 }
 
 }  // namespace
