@@ -84,7 +84,10 @@ class Choice {
 
 double smooth_drive_time(std::span<const Arc> arcs, const vehicle::Model& model) {
   double time = drive_time(arcs, model), stretch = 0.0;
+  const auto wheel = [&](const Arc& arc) { return std::atan(model.wheelbase * arc.curvature); };
   for (std::size_t i = 0; i < arcs.size(); ++i) {
+    // On short arcs nothing else happens while the wheel turns.
+    if (i > 0) time += std::abs(wheel(arcs[i]) - wheel(arcs[i - 1])) / model.limits.steering_rate;
     stretch += std::abs(arcs[i].distance);
     if (i + 1 < arcs.size() && arcs[i + 1].gear() == arcs[i].gear()) continue;
     const double top = arcs[i].gear() > 0 ? model.limits.speed : model.limits.reverse_speed;

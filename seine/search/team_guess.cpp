@@ -370,7 +370,7 @@ TeamGuess guess_team(const world::Scenario& scenario, const world::StaticMap& ma
     guess.reason = std::move(verdict.reason);
     guess.impossible = verdict.proved;
   } else if (!guess.without_motion.empty()) {
-    guess.reason = why_no_motion(scenario, map, guess.without_motion, options.deadline);
+    guess.reason = why_no_motion(scenario, map, guess.without_motion, options.deadline) + guess.meetings;
   }
   return guess;
 }

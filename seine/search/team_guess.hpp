@@ -38,7 +38,7 @@ struct TeamGuess {
   std::string reason;  ///< why not complete: names the robots
   std::vector<int> without_way;     ///< robots that found no path even without the others
   std::vector<int> without_motion;  ///< robots that found one, but no motion among the others
-  std::string meetings;  ///< what those would meet first on their ways: half sentences
+  std::string meetings;             ///< what those would meet first on their ways: half sentences
   bool impossible = false;          ///< proved: no plan exists, another guess is of no use
   struct {
     double field = 0, paths = 0, coordinate = 0;
