@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "seine/certify/certificate.hpp"
+#include "seine/planner/faults.hpp"
 #include "seine/planner/groups.hpp"
 #include "seine/planner/moving_bodies.hpp"
 #include "seine/planner/straight_hop.hpp"
@@ -56,6 +57,8 @@ void Session::climb() {
   int failed_guesses = 0, better = 0;
   for (int rung = 0; rung < (timed ? kMostRungs : kRungs) && !deadline_.expired(); ++rung) {
     const Attempt now = attempt(rung);
+    // For a better plan than one that holds no new search is worth its time.
+    if (slowed_ && !guessed_for(now)) break;
     if (!have_guess(now)) {
       if (guess_.impossible) break;
       // That there is no way with more room says nothing.
@@ -79,12 +82,18 @@ void Session::climb() {
 
 // Guesses are kept for the attempts that begin from the same one.
 bool Session::have_guess(const Attempt& now) {
-  if (guessed_ && guessed_->guess == now.guess && guessed_->roomier == now.roomier) return guess_.complete;
+  if (guessed_for(now)) return guess_.complete;
   asked_.margins = scenario_.margins;
   const double room = now.roomier * scenario_.models.front().length();
   asked_.margins.robot += room, asked_.margins.obstacle += room;
   guessed_ = now;
-  return guess(now.guess);
+  // Who starts or ends nearer than that has no such way.
+  guess_.complete = now.roomier == 0.0 || world::check(asked_, map_).empty();
+  return guess_.complete && guess(now.guess);
+}
+
+bool Session::guessed_for(const Attempt& now) const {
+  return guessed_ && guessed_->guess == now.guess && guessed_->roomier == now.roomier;
 }
 
 bool Session::guess(std::uint64_t attempt) {
@@ -252,6 +261,10 @@ std::vector<Session::Group> Session::movers(std::vector<Group> groups) const {
 bool Session::certify() {
   const Stopwatch watch;
   report("certify", 0.0);
+  if (std::ranges::any_of(result_.plan.robots, folds)) {
+    result_.certificate = {};
+    return false;
+  }
   certify::Options options;
   options.threads = workers_.count();
   options.deadline = deadline_;
@@ -264,7 +277,7 @@ bool Session::certify() {
 
 void Session::polish() {
   for (int round = 0; round < kPolishRounds; ++round) {
-    if (certify() || deadline_.expired()) return;
+    if (certify() || deadline_.expired() || result_.certificate.violations.empty()) return;
     const Stopwatch watch;
     report("repair", static_cast<double>(round) / kPolishRounds);
     std::vector<Group> groups = raise_demands(round), stuck;

@@ -37,6 +37,7 @@ class Session {
 
   void climb();
   bool have_guess(const Attempt& now);
+  bool guessed_for(const Attempt& now) const;
   bool guess(std::uint64_t attempt);
   void prepare(const Attempt& now);
   void place_bodies();

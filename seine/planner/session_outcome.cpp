@@ -57,7 +57,9 @@ void Session::settle() {
 }
 
 std::string Session::reason_to_give_up() const {
-  if (fault_.empty()) return "gave up at the deadline, during the first attempt";
+  if (fault_.empty())
+    return deadline_.expired() ? "gave up at the deadline, during the first attempt"
+                               : "no attempt came to a curve that a car can drive";
   return "gave up after " + std::to_string(attempts_) + (attempts_ == 1 ? " attempt" : " attempts") +
          (deadline_.expired() ? " at the deadline" : "") + "; the nearest fails because " + fault_;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace seine::planner {
 namespace {
@@ -36,16 +37,19 @@ bool moving_start(const world::Scenario& scenario, std::size_t robot) {
   return scenario.robots[robot].start_speed != 0.0;
 }
 
-bool stretch_at(traj::RobotTrajectory& car, double time, double factor, bool rolling) {
+// How many times slower each of a car's segments has to be.
+using Factors = std::vector<double>;
+
+// False when no segment that may be slowed is under way then.
+bool note(const traj::RobotTrajectory& car, double time, double factor, bool rolling, Factors& factors) {
   bool met = false;
   double begin = 0.0;
   for (std::size_t i = 0; i < car.segments.size(); ++i) {
-    traj::Segment& segment = car.segments[i];
-    begin += segment.wait;
-    const double end = begin + segment.duration();
+    begin += car.segments[i].wait;
+    const double end = begin + car.segments[i].duration();
     if (time >= begin - kTouch && time <= end + kTouch) {
       if (rolling && i == 0) return false;
-      segment.piece_duration *= factor;
+      factors[i] = std::max(factors[i], factor);
       met = true;
     }
     begin = end;
@@ -70,21 +74,23 @@ std::optional<traj::TeamTrajectory> slowed(const world::Scenario& scenario,
                                            const traj::TeamTrajectory& plan, Clock clock) {
   const std::optional<double> most = slowing(certificate);
   if (!most) return std::nullopt;
-  traj::TeamTrajectory result = plan;
+  std::vector<Factors> factors;
+  for (const traj::RobotTrajectory& car : plan.robots)
+    factors.emplace_back(car.segments.size(), clock == Clock::common ? *most : 1.0);
+  for (std::size_t k = 0; k < factors.size(); ++k)
+    if (clock == Clock::common && moving_start(scenario, k)) return std::nullopt;
   for (const certify::Violation& v : certificate.violations) {
-    if (clock == Clock::common) break;
     const auto k = static_cast<std::size_t>(v.robot);
-    // Times are those of the plan as it was: where two stretches of a car are at fault the later one is
-    // looked for too early, and found by the next certificate.
-    if (!stretch_at(result.robots[k], v.time, *stretch_for(v), moving_start(scenario, k)))
+    if (!note(plan.robots[k], v.time, *stretch_for(v), moving_start(scenario, k), factors[k]))
       return std::nullopt;
   }
-  if (clock == Clock::own) return result;
-  for (std::size_t k = 0; k < result.robots.size(); ++k) {
-    if (moving_start(scenario, k)) return std::nullopt;
-    for (traj::Segment& segment : result.robots[k].segments)
-      segment.wait *= *most, segment.piece_duration *= *most;
-  }
+  traj::TeamTrajectory result = plan;
+  for (std::size_t k = 0; k < factors.size(); ++k)
+    for (std::size_t i = 0; i < factors[k].size(); ++i) {
+      traj::Segment& segment = result.robots[k].segments[i];
+      segment.piece_duration *= factors[k][i];
+      if (clock == Clock::common) segment.wait *= *most;
+    }
   return result;
 }
 
@@ -93,6 +99,7 @@ std::optional<Slowed> certified_slower(const world::Scenario& scenario, const wo
                                        const traj::TeamTrajectory& plan, const certify::Options& options) {
   for (const Clock clock : {Clock::own, Clock::common}) {
     if (clock == Clock::common && scenario.robots.size() < 2) break;
+    if (clock == Clock::own && scenario.net) continue;  // who holds a net keeps time with the others
     Slowed now{plan, certificate};
     for (int round = 0; round < kRounds && !options.deadline.expired(); ++round) {
       std::optional<traj::TeamTrajectory> slower = slowed(scenario, now.certificate, now.plan, clock);
