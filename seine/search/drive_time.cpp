@@ -110,4 +110,18 @@ double drive_time(std::span<const Arc> arcs, const vehicle::Model& model) {
   return driven + steering_time(smooth, times, model);
 }
 
+double drive_time(const Path& path, const vehicle::Model& model) {
+  std::vector<Arc> arcs;
+  for (std::size_t i = 0; i + 1 < path.points.size(); ++i) {
+    const PathPoint& point = path.points[i];
+    const double driven = point.gear * (path.points[i + 1].s - point.s);
+    if (driven == 0.0) continue;
+    if (!arcs.empty() && arcs.back().curvature == point.curvature && arcs.back().gear() == point.gear)
+      arcs.back().distance += driven;
+    else
+      arcs.push_back({point.curvature, driven});
+  }
+  return drive_time(arcs, model);
+}
+
 }  // namespace seine::search

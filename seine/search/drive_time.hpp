@@ -2,6 +2,7 @@
 
 #include <span>
 
+#include "seine/search/path.hpp"
 #include "seine/vehicle/arc.hpp"
 #include "seine/vehicle/model.hpp"
 
@@ -12,5 +13,7 @@ namespace seine::search {
 /// the wheel at the arcs' joints adds where its rate is limited. An estimate to compare ways by: the
 /// optimiser rounds the joints off. Infinite where a gear is driven that the car does not have.
 double drive_time(std::span<const vehicle::Arc> arcs, const vehicle::Model& model);
+/// The same for a sampled path.
+double drive_time(const Path& path, const vehicle::Model& model);
 
 }  // namespace seine::search

@@ -11,6 +11,7 @@
 #include "seine/base/workers.hpp"
 #include "seine/search/blockers.hpp"
 #include "seine/search/coordinator.hpp"
+#include "seine/search/drive_time.hpp"
 #include "seine/search/leaving.hpp"
 #include "seine/search/path_planner.hpp"
 #include "seine/search/precedence.hpp"
@@ -20,6 +21,7 @@
 #include "seine/search/side_step.hpp"
 #include "seine/search/space_time_planner.hpp"
 #include "seine/search/team_search.hpp"
+#include "seine/search/whims.hpp"
 
 namespace seine::search {
 namespace {
@@ -51,6 +53,7 @@ class Guess {
                                       const TeamSearch::Sources::Among& how) const;
   TeamSearch::Sources sources() const;
   Attempt new_attempt() const;
+  std::optional<Path> find_first_way(int robot) const;
   bool find_first_ways(Attempt& attempt);
   void leave_tried_ways(Attempt& attempt) const;
   std::vector<int> first_order(const Coordinator& coordinator) const;
@@ -178,14 +181,37 @@ Attempt Guess::new_attempt() const {
   return attempt;
 }
 
+// A car by itself has no order to change: another seed makes it try another way; and where its way changes
+// gear, the quickest of a few is taken.
+std::optional<Path> Guess::find_first_way(int robot) const {
+  constexpr int kPatience = 20000, kMoreWays = 6, kBriefly = 2000;
+  const world::Robot& who = scenario_.robots[idx(robot)];
+  const vehicle::Model& model = scenario_.model_of(who);
+  const bool alone = scenario_.robots.size() == 1 && !who.rests_at_goal();
+  const auto bumps = [&](std::uint64_t seed) {
+    return whims(who.start.position(), who.goal->position(), model.length(), seed);
+  };
+  std::optional<Path> best;
+  if (alone && options_.seed != 0) best = find_path(robot, bumps(options_.seed), {}, kPatience);
+  if (!best) best = find_path(robot, {}, {}, kPatience);
+  if (!alone || options_.seed != 0 || !options_.quickest || who.start_speed != 0.0) return best;
+  if (!best || !changes_gear(*best)) return best;
+  double quickest = drive_time(*best, model);
+  for (std::uint64_t seed = 1; seed <= kMoreWays && !options_.deadline.expired(); ++seed) {
+    std::optional<Path> other = find_path(robot, bumps(seed), {}, kBriefly);
+    const double time = other ? drive_time(*other, model) : quickest;
+    if (time < quickest) quickest = time, best = std::move(other);
+  }
+  return best;
+}
+
 // The shortest path of everybody. False: somebody has none.
 bool Guess::find_first_ways(Attempt& attempt) {
   const int count = attempt.coordinator->robots();
   Workers workers(std::max(1, options_.threads));
   workers.run(count, [&](int robot) {
     if (attempt.coordinator->fixed(robot) || options_.deadline.expired()) return;
-    constexpr int kPatience = 20000;
-    if (std::optional<Path> path = find_path(robot, {}, {}, kPatience))
+    if (std::optional<Path> path = find_first_way(robot))
       attempt.coordinator->add_way(robot, std::move(*path));
   });
   for (int i = 0; i < count; ++i) {
