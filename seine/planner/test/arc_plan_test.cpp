@@ -48,5 +48,29 @@ TEST(Plan, GetsIntoTightPlacesAndOut) {
   }
 }
 
+/// A wall beside, before or behind the car, exactly at the margin or with a millimetre or three to spare.
+TEST(Plan, LeavesAndReachesPlacesAtTheMargin) {
+  for (const double spare : {0.0, 0.001, 0.003}) {
+    for (const bool leaves : {true, false}) {
+      world::Scenario scenario;
+      scenario.bounds = {{-8.0, -8.0}, {8.0, 8.0}};
+      scenario.models = {{.footprint = vehicle::rectangle_footprint(0.6, 0.4, 0.1)}};
+      scenario.margins = {0.05, 0.05};
+      const double face = -0.25 - spare;
+      scenario.obstacles.push_back({.name = "wall",
+                                    .shape = std::vector<geom::Vec2>{
+                                        {-5.0, face - 0.1}, {5.0, face - 0.1}, {5.0, face}, {-5.0, face}}});
+      const geom::Pose2 at_wall{}, along{3.0, 0.0, 0.0};
+      scenario.robots.push_back(
+          {.name = "car", .start = leaves ? at_wall : along, .goal = leaves ? along : at_wall});
+      const PlanResult result = plan(scenario, {.threads = 1});
+      EXPECT_TRUE(result.certified) << spare << leaves << ": " << result.reason;
+      if (result.certified) {
+        EXPECT_LT(result.plan.makespan(), 3.0);
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace seine::planner

@@ -192,5 +192,30 @@ TEST(Shorten, TakesWigglesOut) {
   EXPECT_LE(route.arcs.size(), 5u);
 }
 
+TEST(FootprintChecker, ReachEndsWhereTheSweepDoes) {
+  world::Scenario scenario;
+  scenario.bounds = {{-3.0, -3.0}, {3.0, 3.0}};
+  scenario.models = {vehicle::Model{.footprint = vehicle::rectangle_footprint(0.6, 0.4, 0.1)}};
+  scenario.obstacles.push_back(
+      {.shape = std::vector<geom::Vec2>{{1.0, -0.5}, {1.2, -0.5}, {1.2, 0.5}, {1.0, 0.5}}});
+  const world::StaticMap map(scenario);
+  FootprintChecker checker(map, nullptr, scenario.models[0], 0.05);
+  checker.set_slack(0.01);
+  const geom::Pose2 start{};
+  for (const double bend : {0.0, 0.5, -1.0, 2.0}) {
+    const vehicle::Arc arc{bend, 2.0};
+    const double reach = checker.reach(start, checker.room(start), arc);
+    if (bend == 0.0) {
+      EXPECT_NEAR(reach, 1.0 - 0.5 - 0.05 - 0.01, 1e-3);
+    }
+    if (reach > 0.0) {
+      EXPECT_TRUE(checker.clear(start, {bend, reach}));
+    }
+    if (reach < 2.0) {
+      EXPECT_FALSE(checker.clear(start, {bend, reach + 2e-3}));
+    }
+  }
+}
+
 }  // namespace
 }  // namespace seine::search
