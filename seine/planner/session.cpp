@@ -60,7 +60,7 @@ void Session::climb() {
     // For a better plan than one that holds no new search is worth its time.
     if (slowed_ && !guessed_for(now)) break;
     if (!have_guess(now)) {
-      if (guess_.impossible) break;
+      if (guess_.impossible && now.roomier == 0.0) break;
       // That there is no way with more room says nothing.
       if (now.roomier == 0.0 && !now.gently && now.finer == 1.0 && ++failed_guesses == most_failed) break;
       continue;
