@@ -9,6 +9,7 @@
 #include "seine/planner/formation_guess.hpp"
 #include "seine/planner/moving_bodies.hpp"
 #include "seine/planner/previous_fit.hpp"
+#include "seine/planner/slower.hpp"
 #include "seine/search/refusal.hpp"
 #include "seine/world/check.hpp"
 
@@ -86,9 +87,21 @@ void NetSession::guess_and_solve() {
     result_.times.corridor += watch.seconds();
     solve(true);
     polish(kPolishRounds);
-    if (result_.certified) return;
+    if (result_.certified || drive_slower()) return;
     ++result_.repairs;
   }
+}
+
+// What is over its limits only may hold when everybody drives slower: not where a catch waits for nobody, and
+// of that the certificate knows.
+bool NetSession::drive_slower() {
+  if (deadline_.expired()) return false;
+  auto slower = certified_slower(scenario_, map_, result_.certificate, result_.plan,
+                                 {.threads = workers_.count(), .deadline = deadline_});
+  if (!slower) return false;
+  result_.plan = std::move(slower->plan);
+  result_.certificate = std::move(slower->certificate);
+  return result_.certified = true;
 }
 
 // From what is left of an earlier plan.

@@ -24,6 +24,7 @@ class NetSession {
  private:
   bool stand();
   bool go_on();
+  bool drive_slower();
   void guess_and_solve();
   bool guess(FormationGuesser& guesser, int attempt);
   void prepare();

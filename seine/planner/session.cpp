@@ -59,8 +59,9 @@ void Session::climb() {
     const Attempt now = attempt(rung);
     // For a better plan than one that holds no new search is worth its time.
     if (slowed_ && !guessed_for(now)) break;
+    if (now.roomier > 0.0 && attempts_ == 0) continue;  // where no way is found there is none with more room
     if (!have_guess(now)) {
-      if (guess_.impossible) break;
+      if (guess_.impossible && now.roomier == 0.0) break;
       // That there is no way with more room says nothing.
       if (now.roomier == 0.0 && !now.gently && now.finer == 1.0 && ++failed_guesses == most_failed) break;
       continue;
