@@ -60,11 +60,10 @@ bool TeamSearch::solve(TeamState& state, const Deadline& deadline, std::span<con
     pass(order, state, deadline);
     repair(state, deadline);
     const int left = unplaced(state);
-    if (left == 0) {
+    if (left == 0 || (attempt == 0 && rescue(state, given, deadline))) {
       overtake(state);
       return true;
     }
-    if (attempt == 0 && rescue(state, given, deadline)) return true;
     if (left < fewest) {
       fewest = left;
       best = state;

@@ -148,7 +148,7 @@ TEST(StaticMap, NamesPiecesAndRefusesKnots) {
   scenario.obstacles.resize(3);
   scenario.obstacles[0].shape = Circle{{2.0, 2.0}, 1.0};
   scenario.obstacles[1].shape = Circle{{5.0, 5.0}, 1.0};
-  scenario.obstacles[1].motion = {{0.0, {5.0, 5.0, 0.0}}};
+  scenario.obstacles[1].motion = {{0.0, {5.0, 5.0, 0.0}}, {9.0, {6.0, 5.0, 0.0}}};
   scenario.obstacles[2].shape = std::vector<Vec2>{{7, 7}, {9, 7}, {9, 8}};
   scenario.obstacles[2].name = "shelf";
   const StaticMap map(scenario);
