@@ -65,7 +65,8 @@ PlanResult NetSession::run() {
 }
 
 // A team which already stands where it should, and meets there what comes, stays. Where its catches lack what
-// is asked beyond the certificate it had better move: then standing is for the case that nothing else is found.
+// is asked beyond the certificate it had better move: then standing is for the case that nothing else is
+// found.
 bool NetSession::stand() {
   for (const world::Robot& robot : scenario_.robots) {
     if (robot.start_speed != 0.0) return false;
