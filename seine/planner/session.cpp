@@ -107,10 +107,15 @@ bool Session::guess(std::uint64_t attempt) {
   options.seed = options_.seed + attempt;
   options.quickest = attempt == 0;  // where it failed, the way the search found first may do
   options.extra_robot_clearance = 0.01 * static_cast<double>(attempt) * scenario_.models.front().length();
+  // A no to more room than was asked for proves nothing and explains nothing; one explanation is enough.
+  const bool as_asked = asked_.margins.obstacle == scenario_.margins.obstacle;
+  options.explain = as_asked && !explained_;
   guess_ = search::guess_team(asked_, map_, options);
+  guess_.impossible = guess_.impossible && as_asked;
   result_.times.guess += watch.seconds();
   // Of a search that was cut short nothing is known; the reason of an earlier one stands.
-  if (!guess_.complete && attempts_ == 0) {
+  if (!guess_.complete && attempts_ == 0 && options.explain) {
+    explained_ = explained_ || !options.deadline.expired();
     if (guess_.impossible || !options.deadline.expired())
       result_.reason = guess_.reason;
     else if (attempt == 0)

@@ -68,6 +68,7 @@ class Session {
   world::Scenario asked_;  // the question with the margins of the attempt at hand
   trajopt::Settings settings_;
   search::TeamGuess guess_;
+  bool explained_ = false;  // why there is no guess
 
   trajopt::Units units_;
   double tick_ = 0.05;  // s

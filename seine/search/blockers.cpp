@@ -12,9 +12,9 @@
 namespace seine::search {
 namespace {
 
-constexpr std::size_t kInFull = 3;  // cars that are explained
-constexpr std::size_t kMost = 16;   // bodies that are tried one by one
-constexpr int kPatience = 3000;     // expansions of one search
+constexpr std::size_t kInFull = 2;  // cars that are explained
+constexpr std::size_t kMost = 6;    // bodies that are tried one by one
+constexpr int kPatience = 1500;     // expansions of one search
 constexpr int kCorners = 12;        // of a disc
 
 /// Something that will stand, or still stands, in the way.

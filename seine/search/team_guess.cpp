@@ -391,12 +391,14 @@ TeamGuess guess_team(const world::Scenario& scenario, const world::StaticMap& ma
     guess = Guess(scenario, map, less).run();
     guess.extra_robot_clearance = less.extra_robot_clearance;
   }
+  if (!guess.complete && !options.explain) return guess;
   if (!guess.without_way.empty()) {
     Verdict verdict = why_no_ways(scenario, map, guess.without_way, options.deadline.expired());
     guess.reason = std::move(verdict.reason);
     guess.impossible = verdict.proved;
   } else if (!guess.without_motion.empty()) {
-    guess.reason = why_no_motion(scenario, map, guess.without_motion, options.deadline) + guess.meetings;
+    const Deadline brief = options.deadline.within(0.1 * options.deadline.remaining());
+    guess.reason = why_no_motion(scenario, map, guess.without_motion, brief) + guess.meetings;
   }
   return guess;
 }

@@ -26,6 +26,7 @@ struct GuessOptions {
       nullptr;  ///< per robot, guesses tried before that a repair should not repeat (may be empty)
   /// Whether a car by itself, or with a slow reverse gear, compares several ways by their time.
   bool quickest = true;
+  bool explain = true;       ///< whether a no says why, which takes up to some tenths of a second
   LatticeOptions lattice{};  ///< how much of the limits the speed profiles use
   TeamSearchOptions team{};  ///< how much is tried
 };

@@ -31,12 +31,12 @@ TEST(Frame, MovesEverythingAlike) {
   const StaticMap a(s), b(moved);
   ASSERT_EQ(a.pieces().size(), b.pieces().size());
   for (std::size_t i = 0; i < a.pieces().size(); ++i) {
-    EXPECT_NEAR(a.pieces()[i].box.low.x - 16.0, b.pieces()[i].box.low.x, 1e-12);
-    EXPECT_NEAR(a.pieces()[i].box.high.y + 32.0, b.pieces()[i].box.high.y, 1e-12);
+    EXPECT_NEAR(a.pieces()[i].box.low.x - 16.0, b.pieces()[i].box.low.x, 1e-7);
+    EXPECT_NEAR(a.pieces()[i].box.high.y + 32.0, b.pieces()[i].box.high.y, 1e-7);
     EXPECT_EQ(a.describe(static_cast<int>(i)), b.describe(static_cast<int>(i)));
   }
   EXPECT_EQ(moved.obstacles.back().motion[1].pose.x, -14.0);
-  EXPECT_EQ(moved.robots[1].goal->y, s.robots[1].goal->y + 32.0);
+  EXPECT_NEAR(moved.robots[1].goal->y, s.robots[1].goal->y + 32.0, 1e-7);
 }
 
 TEST(Frame, OfNumbersWithFewDecimalsIsTheSameAnywhere) {
