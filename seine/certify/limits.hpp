@@ -24,7 +24,7 @@ class LimitProof {
     Kind kind;
     Quantity quantity;
     int other = -1;  ///< the target for whose sake it is
-    double sign;  ///< 0: of the magnitude; −1: of minus the value
+    double sign;     ///< 0: of the magnitude; −1: of minus the value
     double limit;
     double seen;             ///< a value beyond it is a violation
     double proved;           ///< what is to be proved

@@ -25,6 +25,8 @@ constexpr search::FormationSettings kThorough{.max_expansions = 6000, .field = t
 constexpr search::FormationSettings kPatient{
     .max_expansions = 150000, .heuristic_weight = 2.5, .cell = 0.8, .headings = 16, .field = true};
 constexpr search::FormationSettings kPatientThorough{.max_expansions = 150000, .field = true};
+// Lengths of ways straight to the cars' goals, car lengths.
+constexpr double kDetours[FormationGuesser::kStraight] = {0.0, 2.0, 5.0};
 constexpr double kHoldPace = 0.8;  // of the top speed: how far a team drives while it holds a catch
 
 // Where every robot has a goal of its own the formation ends as they stand there.
@@ -71,6 +73,7 @@ search::FormationProblem problem_for(const world::Scenario& scenario, const worl
                                          scenario.delivery->heading};
   } else if (const auto end = end_of(scenario)) {
     problem.goal = end->goal;
+    problem.goal->exact = true;
   }
   return problem;
 }
@@ -132,7 +135,19 @@ std::optional<search::FormationSettings> FormationGuesser::settings_for(int atte
   }
 }
 
+// Where every car has a goal of its own: straight there; then with room to change places on the way.
+std::optional<FormationGuess> FormationGuesser::straight_to_goals(int attempt) {
+  if (!last_ || !question_.meetings.empty()) return std::nullopt;
+  search::FormationSettings settings = kQuick;
+  settings.straight_to_goal = kDetours[attempt];
+  auto way = search_.find(settings);
+  if (!way) return std::nullopt;
+  return assemble(std::move(*way));
+}
+
 std::optional<FormationGuess> FormationGuesser::guess(int attempt) {
+  if (attempt < kStraight) return straight_to_goals(attempt);
+  attempt -= kStraight;
   auto settings = settings_for(attempt);
   if (!settings) return std::nullopt;
   if (attempt > 0 && !narrow_) offer_narrow_shapes();

@@ -13,7 +13,8 @@ namespace seine::planner {
 /// differ in what they try, and share what they learn of the ground.
 class FormationGuesser {
  public:
-  static constexpr int kAttempts = 5;
+  static constexpr int kStraight = 3;  // attempts straight to the cars' goals
+  static constexpr int kAttempts = kStraight + 5;
 
   FormationGuesser(const world::Scenario& scenario, const world::StaticMap& map, const NetQuestion& question,
                    const Deadline& deadline);
@@ -23,6 +24,7 @@ class FormationGuesser {
   std::optional<FormationGuess> guess(int attempt);
 
  private:
+  std::optional<FormationGuess> straight_to_goals(int attempt);
   std::optional<search::FormationSettings> settings_for(int attempt) const;
   void offer_narrow_shapes();
   FormationGuess assemble(search::FormationPath way) const;

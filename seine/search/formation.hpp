@@ -42,6 +42,7 @@ struct FormationGoal {
   double radius = 0.35;
   std::optional<double> heading;  ///< rad
   double heading_tolerance = 0.15;
+  bool exact = false;  ///< ways straight to it end in its very middle, with its very heading
 };
 
 struct FormationProblem {
@@ -70,8 +71,11 @@ struct FormationSettings {
   double cell = 0.5;
   int headings = 32;
   bool forward = true, backward = true;  ///< gears it may drive in
-  bool wait_at_start = true;             ///< until what can be met there has been met
-  bool field = false;  ///< distances to go around what is tall, instead of as the crow flies
+  /// Only a way straight to the goal, and one of at least this length, car lengths: where cars have to change
+  /// places they need room for it. Absent: any way.
+  std::optional<double> straight_to_goal;
+  bool wait_at_start = true;  ///< until what can be met there has been met
+  bool field = false;         ///< distances to go around what is tall, instead of as the crow flies
 };
 
 /// A way of the frame, where on it each rendezvous is passed, and which shape is held from where on.

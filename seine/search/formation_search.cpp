@@ -231,7 +231,8 @@ bool Lattice::worth_a_shot(const Node& here, int expansions) {
 // Straight to the goal, if that is clear; it competes with everything else that waits.
 void Lattice::shoot(int index) {
   const Node& from = node(index);
-  auto shot = shots_->from(from.stand, shape(from.shape), from.parent < 0 ? nullptr : &from.move->arc);
+  auto shot = shots_->from(from.stand, shape(from.shape), from.parent < 0 ? nullptr : &from.move->arc,
+                           s_.straight_to_goal.value_or(0.0) * limits_.length);
   if (!shot) return;
   double first_leg = 0.0;
   for (const Arc& arc : shot->arcs) {
@@ -366,7 +367,7 @@ std::optional<FormationPath> Lattice::run() {
     if (left < nearest) nearest = left, nearest_at = expansions;
     if (expansions - nearest_at > s_.patience) break;
     if (++expansions % 64 == 0 && p_.deadline.expired()) break;
-    expand(entry.node);
+    if (!s_.straight_to_goal) expand(entry.node);
     if (worth_a_shot(node(entry.node), expansions)) shoot(entry.node);
   }
   return std::nullopt;

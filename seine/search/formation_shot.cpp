@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <utility>
 
 #include "seine/vehicle/reeds_shepp.hpp"
 
@@ -113,8 +113,31 @@ void FormationShots::offer_words(const Stand& stand, const Formation& held, doub
   for (int i = 0; i < found; ++i) {
     const auto& word = words[static_cast<std::size_t>(i)];
     FormationShot shot{{word.arcs().begin(), word.arcs().end()}, 0.0};
-    if (goal_.radius > 0.0) end_early(stand, held, shot);
+    if (!goal_.exact) end_early(stand, held, shot);
     offer(std::move(shot), before);
+  }
+}
+
+// Out straight and then to the goal, so that the way has the length asked for.
+void FormationShots::offer_detours(const Stand& stand, const Formation& held, double least) {
+  const std::vector<FormationShot> direct = std::exchange(shots_, {});
+  for (const FormationShot& shot : direct) {
+    double length = 0.0;
+    for (const Arc& arc : shot.arcs) length += std::abs(arc.distance);
+    if (length >= least) shots_.push_back(shot);
+  }
+  for (const double out : {0.5 * least, -0.5 * least}) {
+    const Arc first{0.0, out};
+    const std::vector<FormationShot> before = std::exchange(shots_, {});
+    const Stand there = after(stand, first, out);
+    for (const double heading : headings_from(there, ground_.middle(there, held)))
+      offer_words(there, held, heading, &first);
+    for (FormationShot& shot : shots_) {
+      shot.arcs.insert(shot.arcs.begin(), first);
+      shot.cost += limits_.time_of(first);
+    }
+    std::erase_if(shots_, [&](const FormationShot& shot) { return !may_drive(shot); });
+    shots_.insert(shots_.begin(), before.begin(), before.end());
   }
 }
 
@@ -144,11 +167,12 @@ bool FormationShots::clear(const Stand& stand, const Formation& held, const Form
 }
 
 std::optional<FormationShot> FormationShots::from(const Stand& stand, const Formation& held,
-                                                  const Arc* before) {
+                                                  const Arc* before, double least) {
   shots_.clear();
   if (!goal_.heading) offer_single_arcs(stand, held, before);
   for (const double heading : headings_from(stand, ground_.middle(stand, held)))
     offer_words(stand, held, heading, before);
+  if (least > 0.0) offer_detours(stand, held, least);
   std::stable_sort(shots_.begin(), shots_.end(),
                    [](const FormationShot& a, const FormationShot& b) { return a.cost < b.cost; });
   const std::size_t looks = std::min<std::size_t>(shots_.size(), kMostLooks);

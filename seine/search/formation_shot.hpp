@@ -24,12 +24,15 @@ class FormationShots {
                  bool backward);
 
   /// From `stand`, reached by `before` (none at the start); nothing where no candidate is clear.
-  std::optional<FormationShot> from(const Stand& stand, const Formation& held, const vehicle::Arc* before);
+  /// @param least m, of the way
+  std::optional<FormationShot> from(const Stand& stand, const Formation& held, const vehicle::Arc* before,
+                                    double least = 0.0);
 
  private:
   void offer(FormationShot shot, const vehicle::Arc* before);
   void offer_single_arcs(const Stand& stand, const Formation& held, const vehicle::Arc* before);
   void offer_words(const Stand& stand, const Formation& held, double heading, const vehicle::Arc* before);
+  void offer_detours(const Stand& stand, const Formation& held, double least);
   std::vector<double> headings_from(const Stand& stand, geom::Vec2 middle) const;
   bool may_drive(const FormationShot& shot) const;
   bool inside(const Stand& stand, const Formation& held);

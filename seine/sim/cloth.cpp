@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace seine::sim {
 namespace {
@@ -9,7 +10,7 @@ namespace {
 using geom::Vec3;
 
 constexpr double kPartingSpeed = 1.0;  // m/s
-constexpr double kRollInertia = 0.4;  // of a solid ball: I = 0.4 m r²
+constexpr double kRollInertia = 0.4;   // of a solid ball: I = 0.4 m r²
 
 using Face = std::array<int, 3>;
 
@@ -123,12 +124,17 @@ void press_apart(Body& a, Body& b, double h) {
   const Vec3 apart = b.ball.position - a.ball.position;
   const double distance = norm(apart), reach = a.ball.radius + b.ball.radius;
   if (distance >= reach) return;
-  // Objects that were told to be in one place part gently; those that collide, no faster than they came.
-  const double most = std::max(kPartingSpeed * h, norm(b.before - a.before) - distance);
+  // What they came together in this step is a collision. Objects that were told to be in one place part
+  // slowly, without getting any speed from it.
+  const double overlap = reach - distance;
+  const double met = std::clamp(norm(b.before - a.before) - distance, 0.0, overlap);
+  const double parted = std::min(overlap - met, kPartingSpeed * h);
   const Vec3 normal = distance > 0.0 ? (1.0 / distance) * apart : Vec3{1.0, 0.0, 0.0};
-  const double share = std::min(reach - distance, most) / (a.ball.mass + b.ball.mass);
-  a.ball.position += (-share * b.ball.mass) * normal;
-  b.ball.position += (share * a.ball.mass) * normal;
+  const double share = 1.0 / (a.ball.mass + b.ball.mass);
+  for (const auto& [body, part] : {std::pair{&a, -share * b.ball.mass}, std::pair{&b, share * a.ball.mass}}) {
+    body->ball.position += (part * (met + parted)) * normal;
+    body->before += (part * parted) * normal;
+  }
 }
 
 void keep_above_ground(Body& body) {

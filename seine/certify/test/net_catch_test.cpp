@@ -151,7 +151,7 @@ NetTeam team_that_carries_on(double speed) {
 }
 
 TEST(PlantedCatch, CarriedTooFastForItsDrag) {
-  for (const double drag : {0.5, 2.0, 8.0})
+  for (const double drag : {1.0, 2.0, 8.0})
     for (const double share : {0.98, 1.02}) {
       NetTeam team = team_that_carries_on(share * net::carry_speed(drag));
       // A flight with drag that falls through the rim at the same time and place.
@@ -164,20 +164,6 @@ TEST(PlantedCatch, CarriedTooFastForItsDrag) {
       target.drag = 0.0;
       EXPECT_TRUE(team.judge().holds);
     }
-}
-
-TEST(PlantedCatch, TheTeamHasLeftWhenItLands) {
-  // A balloon falls from the rim to the net for a second; the team waits for that, or does not.
-  for (const double wait : {3.5, 0.0}) {
-    NetTeam team = driving_team(regular(4, kOpen * kRadius), regular(4, kRadius), 1.0, 4.0);
-    for (traj::RobotTrajectory& way : team.plan.robots) way.segments.front().wait = 1.9 + wait;
-    team.net().clearance = 0.0;
-    team.scenario.targets = {falling({-0.35, 0.0}, 1.9, {0.0, 0.0, -4.0})};
-    net::Target& target = team.scenario.targets[0];
-    target.drag = 30.0, target.velocity = {}, target.time = 0.0, target.position = {-0.75, 0.0, 2.0};
-    const Certificate certificate = team.judge();
-    EXPECT_EQ(certificate.holds, wait > 0.0) << summary(certificate);
-  }
 }
 
 TEST(PlantedCatch, NeverComes) {

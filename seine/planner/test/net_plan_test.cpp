@@ -9,6 +9,7 @@
 #include "seine/net/shape.hpp"
 #include "seine/planner/net_question.hpp"
 #include "seine/planner/planner.hpp"
+#include "seine/world/families.hpp"
 #include "seine/world/net_families.hpp"
 
 namespace seine::planner {
@@ -132,6 +133,91 @@ TEST(NetPlan, TheImpossibleIsRefusedWithItsReason) {
 }
 
 // The bound must never refuse what a plan shows to be possible.
+// A team that stands around the origin in an empty world, a load in its net.
+world::Scenario standing_team(int robots, double heading) {
+  world::Scenario scenario;
+  scenario.name = "standing";
+  scenario.bounds = {{-15.0, -15.0}, {15.0, 15.0}};
+  scenario.models = {world::standard_car()};
+  scenario.net = world::family_net(robots);
+  for (int k = 0; k < robots; ++k) {
+    const Vec2 corner = 0.92 * scenario.net->rest[static_cast<std::size_t>(k)];
+    const Vec2 axle = corner - 0.2 * geom::unit(heading);
+    scenario.robots.push_back({.name = "car" + std::to_string(k), .start = {axle.x, axle.y, heading}});
+  }
+  scenario.payload = net::Payload{};
+  return scenario;
+}
+
+TEST(NetPlan, ShortMovesAreShort) {
+  Rng rng(11);
+  for (int round = 0; round < 24; ++round) {
+    world::Scenario scenario = standing_team(3 + round % 4, rng.uniform(-3.0, 3.0));
+    const double radii[] = {0.01, 0.03, 0.1, 0.5}, gaps[] = {0.0, 1e-3, 0.02, 0.1, 0.3, 1.0, 3.0};
+    const double radius = radii[rng.below(4)], gap = gaps[rng.below(7)];
+    const Vec2 to = (gap + radius) * geom::unit(rng.uniform(-3.14, 3.14));
+    scenario.delivery = net::Delivery{to, radius, std::nullopt};
+    const PlanResult result = plan(scenario, {.threads = 1});
+    ASSERT_TRUE(result.certified) << round << ", " << gap << " m: " << result.reason;
+    expect_carried(scenario, result.plan);
+    // Sideways a car goes forth and back; nobody drives round in a loop.
+    const double each = result.quality.distance / static_cast<double>(scenario.robots.size());
+    EXPECT_LT(each, 1.3 * gap + 4.0 * std::sqrt(gap * 0.5) * 0.5 + 0.25) << round << ", " << gap << " m";
+  }
+}
+
+TEST(NetPlan, NothingToDoIsNothingDone) {
+  for (const int robots : {3, 4, 6}) {
+    world::Scenario scenario = standing_team(robots, 0.4);
+    const auto expect_stay = [&] {
+      const PlanResult result = plan(scenario, {.threads = 1});
+      ASSERT_TRUE(result.certified) << result.reason;
+      EXPECT_EQ(result.quality.makespan, 0.0);
+    };
+    expect_stay();  // nothing asked
+    scenario.delivery = net::Delivery{{0.1, 0.0}, 0.3, std::nullopt};
+    expect_stay();
+    scenario.delivery.reset();
+    for (world::Robot& robot : scenario.robots) robot.goal = robot.start;
+    expect_stay();
+    for (world::Robot& robot : scenario.robots) robot.goal.reset();
+    scenario.payload.reset();
+    net::Target target;
+    target.position = {0.05, 0.05, 3.0};
+    scenario.targets = {target};
+    expect_stay();  // it falls into the net
+  }
+}
+
+TEST(NetPlan, GoalsNearByAreReached) {
+  for (const int robots : {3, 4, 6})
+    for (const double ahead : {0.01, 0.3, -0.3}) {
+      world::Scenario scenario = standing_team(robots, 0.0);
+      for (world::Robot& robot : scenario.robots)
+        robot.goal = geom::Pose2{robot.start.x + ahead, robot.start.y, 0.0};
+      const PlanResult result = plan(scenario, {.threads = 1});
+      ASSERT_TRUE(result.certified) << robots << " cars, " << ahead << " m: " << result.reason;
+      EXPECT_LT(result.quality.distance / robots, std::abs(ahead) + 0.05);
+    }
+}
+
+TEST(NetPlan, WhatTheAirPushesIsCarriedSlowly) {
+  for (const double drag : {0.5, 2.0, 8.0}) {
+    world::Scenario scenario = standing_team(4, 0.0);
+    scenario.payload.reset();
+    net::Target target;
+    target.position = {1.0, 0.3, 3.0}, target.velocity = {0.0, 0.0, 2.0}, target.drag = drag;
+    scenario.targets = {target};
+    scenario.delivery = net::Delivery{{3.0, 1.0}, 0.3, std::nullopt};
+    const PlanResult result = plan(scenario, {.threads = 1});
+    ASSERT_TRUE(result.certified) << drag << ": " << result.reason;
+    const double caught = net::Flight(target).crossing(scenario.net->rim())->state.time;
+    for (const traj::RobotTrajectory& way : result.plan.robots)
+      for (double t = caught; t < way.arrival(); t += 0.01)
+        ASSERT_LE(std::abs(way.at(t).speed), net::carry_speed(drag) + 1e-3) << drag << ", " << t << " s";
+  }
+}
+
 TEST(NetPlan, TheLeastTimeIsABound) {
   for (std::uint64_t seed = 0; seed < 8; ++seed) {
     const world::Scenario scenario = world::throw_scene(3 + static_cast<int>(seed % 2), seed);
