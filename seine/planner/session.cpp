@@ -110,6 +110,7 @@ bool Session::guess(std::uint64_t attempt) {
   // A no to more room than was asked for proves nothing and explains nothing; one explanation is enough.
   const bool as_asked = asked_.margins.obstacle == scenario_.margins.obstacle;
   options.explain = as_asked && !explained_;
+  options.explain_until = deadline_;
   guess_ = search::guess_team(asked_, map_, options);
   guess_.impossible = guess_.impossible && as_asked;
   result_.times.guess += watch.seconds();

@@ -397,8 +397,7 @@ TeamGuess guess_team(const world::Scenario& scenario, const world::StaticMap& ma
     guess.reason = std::move(verdict.reason);
     guess.impossible = verdict.proved;
   } else if (!guess.without_motion.empty()) {
-    const Deadline brief = options.deadline.within(0.1 * options.deadline.remaining());
-    guess.reason = why_no_motion(scenario, map, guess.without_motion, brief) + guess.meetings;
+    guess.reason = why_no_motion(scenario, map, guess.without_motion, options.explain_until) + guess.meetings;
   }
   return guess;
 }

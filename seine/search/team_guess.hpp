@@ -27,6 +27,7 @@ struct GuessOptions {
   /// Whether a car by itself, or with a slow reverse gear, compares several ways by their time.
   bool quickest = true;
   bool explain = true;       ///< whether a no says why, which takes up to some tenths of a second
+  Deadline explain_until{};  ///< for that: the search may have used up its own deadline
   LatticeOptions lattice{};  ///< how much of the limits the speed profiles use
   TeamSearchOptions team{};  ///< how much is tried
 };
