@@ -79,7 +79,7 @@ class RobotProblem {
     int gear, pieces, time_pieces;
     int piece_begin, time_begin;            // into the coefficient arrays
     int knots, progress, length, duration;  // variable indices
-    int wait;                               // variable index, −1 when it does not wait, or as long as `held`
+    int wait;  // variable index, −1 when it does not wait, or as long as `held`
     double held;
     double speed_limit;
     // Current values.

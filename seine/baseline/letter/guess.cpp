@@ -93,8 +93,7 @@ SegmentTask segment_of(const Stretch& stretch, const vehicle::Model& model, cons
   const Trapezoid timing(stretch.length(), std::min(settings.cusp_speed, top), top,
                          settings.acceleration_share * limits.acceleration);
   const double wanted = stretch.length() / (settings.piece_length * model.length());
-  const int pieces =
-      std::clamp(static_cast<int>(std::lround(wanted)), kLeastPieces, kMostPieces);
+  const int pieces = std::clamp(static_cast<int>(std::lround(wanted)), kLeastPieces, kMostPieces);
   SegmentTask task{.gear = stretch.gear, .piece_duration = timing.duration() / pieces};
   const auto pose_at = [&](double pieces_driven) {
     return pose_on(stretch, timing.driven(pieces_driven * task.piece_duration));

@@ -24,9 +24,9 @@ struct RobotTask {
   vehicle::Model model;
   geom::Pose2 start;
   std::vector<SegmentTask> segments;  ///< none: the car stands at its start
-  bool free_cusps = true;       ///< gear-change poses are variables
-  bool free_end = false;        ///< so is the final position
-  corridor::Corridor corridor;  ///< a region for every sample of the quadrature, in order
+  bool free_cusps = true;             ///< gear-change poses are variables
+  bool free_end = false;              ///< so is the final position
+  corridor::Corridor corridor;        ///< a region for every sample of the quadrature, in order
 };
 
 }  // namespace seine::baseline::letter

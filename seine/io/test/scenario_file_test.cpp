@@ -171,7 +171,8 @@ TEST(ScenarioFile, NamesThePlaceOfEveryMistake) {
       {"world:", "models: {default: {limits: {speed: -1}}}\nworld:",
        "team.yaml:2: 'speed' of 'limits' of 'default' of 'models' is -1, expected from 0.001 to 10000"},
       {"heading: 0}", "heading: 0, speed: 3}",
-       "team.yaml:5: 'speed' of 'start' of entry 1 of 'robots' is 3, beyond what the model can drive: -2.5 to "
+       "team.yaml:5: 'speed' of 'start' of entry 1 of 'robots' is 3, beyond what the model can drive: -2.5 "
+       "to "
        "2.5 m/s, and 1 % more for measured speeds"},
       {"robots:", "  obstacles: [{circle: {radius: 1}}]\nrobots:",
        "team.yaml:4: 'circle' of entry 1 of 'obstacles' of 'world' has no 'center', which is required for a "

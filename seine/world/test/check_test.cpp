@@ -147,7 +147,8 @@ TEST(Check, MovingObstaclesAtTheirBeginningAndEnd) {
     };
   };
   expect_one(moving(1.2, 5.0), {"robot 2 at its start overlaps cart (moving, at t = 0)"});
-  expect_one(moving(4.0, 8.2), {"the goal of robot 2 is blocked from t = ", " s on by cart, which comes to rest on it"});
+  expect_one(moving(4.0, 8.2),
+             {"the goal of robot 2 is blocked from t = ", " s on by cart, which comes to rest on it"});
   Scenario fine = good();
   moving(4.0, 5.0)(fine);
   EXPECT_TRUE(complaints(fine).empty());
