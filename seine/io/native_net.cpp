@@ -57,11 +57,14 @@ std::vector<Vec2> regular_net(const YamlValue& value, std::size_t corners) {
 
 std::vector<Vec2> read_rest(const YamlValue& value, std::size_t robots) {
   std::vector<Vec2> rest;
-  for (const YamlValue& entry : value.list(3, ScenarioCaps::kNetCorners + 1)) {
+  // A closed ring gives its first corner twice.
+  for (const YamlValue& entry : value.list(0, ScenarioCaps::kNetCorners + 1)) {
     const std::vector<double> xy = entry.numbers(2, kCoordinate);
     rest.push_back({xy[0], xy[1]});
   }
   rest = geom::without_repeats(std::move(rest));
+  if (rest.size() < 3 || rest.size() > ScenarioCaps::kNetCorners)
+    value.fail(joined("has ", rest.size(), " entries, expected 3 to ", ScenarioCaps::kNetCorners));
   expect_corners(value, rest.size(), robots);
   const std::string wrong = geom::why_not_simple(rest);
   if (!wrong.empty()) value.fail("is not simple: " + wrong);
