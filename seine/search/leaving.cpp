@@ -132,14 +132,4 @@ std::vector<Path> ways_out(const world::Scenario& scenario, const world::StaticM
   return Exit(scenario, map, robot).run();
 }
 
-Path joined(Path first, const Path& rest) {
-  const double driven = first.length();
-  const bool same_gear = !first.points.empty() && first.points.back().gear == rest.points.front().gear;
-  for (std::size_t i = same_gear ? 1 : 0; i < rest.points.size(); ++i) {
-    first.points.push_back(rest.points[i]);
-    first.points.back().s += driven;
-  }
-  return first;
-}
-
 }  // namespace seine::search

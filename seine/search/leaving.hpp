@@ -20,7 +20,4 @@ bool starts_inside_margin(const world::Scenario& scenario, const world::StaticMa
 std::vector<Path> ways_out(const world::Scenario& scenario, const world::StaticMap& map,
                            const world::Robot& robot);
 
-/// `first`, then `rest`, which begins where `first` ends.
-Path joined(Path first, const Path& rest);
-
 }  // namespace seine::search

@@ -6,6 +6,17 @@
 
 namespace seine::search {
 
+void append(Path& path, const Path& next) {
+  const double length = path.length();
+  if (path.points.empty() || next.points.empty()) return;
+  const bool same_gear = next.points.front().gear == path.points.back().gear;
+  if (same_gear) path.points.pop_back();
+  for (const PathPoint& point : next.points) {
+    path.points.push_back(point);
+    path.points.back().s += length;
+  }
+}
+
 geom::Pose2 pose_at(const Path& path, double s) {
   const auto& points = path.points;
   if (points.empty()) return {};

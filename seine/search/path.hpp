@@ -42,6 +42,9 @@ struct TimedPath {
   ProfileKnot at(double t) const;
 };
 
+/// Drives on along `next`, which begins where `path` ends.
+void append(Path& path, const Path& next);
+
 /// Pose on the path at driven length s (clamped), interpolated between samples.
 geom::Pose2 pose_at(const Path& path, double s);
 

@@ -11,6 +11,8 @@ namespace {
 // How long the first car waits at its start, in times it needs alone.
 constexpr double kDelays[] = {0.0, 0.5, 1.0, 2.0};
 constexpr int kMostOrders = 6;
+// Patience of the first round, which makes do with the ways at hand.
+constexpr int kNoSearch = -1;
 
 std::size_t idx(int i) {
   return static_cast<std::size_t>(i);
@@ -26,7 +28,7 @@ bool Rescue::run(std::span<const int> group, TeamState& state, const Deadline& d
     if (!coordinator_.ways(robot).empty()) alone = std::max(alone, coordinator_.alone(robot));
   TeamState without = state;
   for (const int robot : order) without[idx(robot)] = nullptr;
-  for (int patience = 0; patience <= SpaceTimePlanner::kMostPatience; ++patience)
+  for (int patience = kNoSearch; patience <= SpaceTimePlanner::kMostPatience; ++patience)
     for (const double delay : kDelays) {
       if (delay > 0.0 && order.size() < 2) break;
       TeamState best = best_of_orders(order, delay * alone, patience, without, deadline);
@@ -61,7 +63,8 @@ bool Rescue::attempt(const std::vector<int>& order, double delay, int patience, 
         if (other && (!placed || other->arrival < placed->arrival)) placed = std::move(other);
       }
     } else {
-      placed = among_(robot, state, coordinator_.place(robot, state, workspace_), patience);
+      placed = coordinator_.place(robot, state, workspace_);
+      if (patience != kNoSearch) placed = among_(robot, state, std::move(placed), patience);
     }
     if (!placed) return false;
     state[idx(robot)] = std::move(placed);

@@ -51,17 +51,6 @@ std::optional<Path> brake_straight(const RollingStart& start, double share) {
   return path;
 }
 
-void append(Path& path, const Path& next) {
-  const double length = path.length();
-  if (path.points.empty() || next.points.empty()) return;
-  const bool same_gear = next.points.front().gear == path.points.back().gear;
-  if (same_gear) path.points.pop_back();
-  for (const PathPoint& point : next.points) {
-    path.points.push_back(point);
-    path.points.back().s += length;
-  }
-}
-
 std::string no_room_to_stop(const RollingStart& start) {
   const double needed = start.braking_distance(1.0), clear = clear_ahead(start, needed);
   if (clear >= needed) return {};

@@ -30,9 +30,6 @@ bool follows(const RollingStart& start, const Path& path, double share);
 /// clear.
 std::optional<Path> brake_straight(const RollingStart& start, double share);
 
-/// `next` begins where `path` ends.
-void append(Path& path, const Path& next);
-
 /// Why a car that is moving cannot stop, in the driver's words: the needed and the available distance. Empty
 /// when it can.
 std::string no_room_to_stop(const RollingStart& start);

@@ -9,6 +9,7 @@
 
 #include "seine/base/rng.hpp"
 #include "seine/base/workers.hpp"
+#include "seine/search/bays.hpp"
 #include "seine/search/blockers.hpp"
 #include "seine/search/coordinator.hpp"
 #include "seine/search/drive_time.hpp"
@@ -51,6 +52,7 @@ class Guess {
   std::optional<Path> find_path_out(const world::Robot& who, const PathOptions& options) const;
   std::optional<Path> find_path_among(int robot, std::span<const Traffic> traffic,
                                       const TeamSearch::Sources::Among& how) const;
+  std::vector<Path> ways_by_bays(int robot, int other, const Path& way, const Path& others) const;
   TeamSearch::Sources sources() const;
   Attempt new_attempt() const;
   std::optional<Path> find_first_way(int robot) const;
@@ -108,8 +110,8 @@ std::optional<Path> Guess::find_path_out(const world::Robot& who, const PathOpti
     const std::optional<Path> rest =
         planners_[idx(who.model)].plan(out.points.back().pose, *who.goal, options);
     if (!rest) continue;
-    Path path = joined(std::move(out), *rest);
-    if (!best || path.length() < best->length()) best = std::move(path);
+    append(out, *rest);
+    if (!best || out.length() < best->length()) best = std::move(out);
   }
   return best;
 }
@@ -159,6 +161,29 @@ std::optional<Path> Guess::find_path_from(const world::Robot& who, const geom::P
   return path && path->length() > 0.0 && path->points.front().gear == rolling.gear() ? path : std::nullopt;
 }
 
+// Ways that turn off into a place beside the way, where the other can drive by.
+std::vector<Path> Guess::ways_by_bays(int robot, int other, const Path& way, const Path& others) const {
+  constexpr int kBriefly = 4000;
+  const world::Robot& who = scenario_.robots[idx(robot)];
+  const PathPlanner& planner = planners_[idx(who.model)];
+  const PathOptions options{.max_expansions = kBriefly,
+                            .clearance = scenario_.margins.obstacle,
+                            .quickest = true,
+                            .deadline = options_.deadline};
+  std::vector<Path> ways;
+  if (who.start_speed != 0.0) return ways;
+  for (const geom::Pose2& bay :
+       bays_beside({&map_, &scenario_.model_of(who), &way, &scenario_.model_of(scenario_.robots[idx(other)]),
+                    &others, scenario_.margins.obstacle, scenario_.margins.robot})) {
+    std::optional<Path> path = planner.plan(who.start, bay, options);
+    const std::optional<Path> rest = path ? planner.plan(bay, *who.goal, options) : std::nullopt;
+    if (!rest) continue;
+    append(*path, *rest);
+    ways.push_back(*std::move(path));
+  }
+  return ways;
+}
+
 TeamSearch::Sources Guess::sources() const {
   return {[this](int robot, std::span<const Bump> bumps, std::span<const std::vector<geom::Vec2>> parked,
                  int expansions) { return find_path(robot, bumps, parked, expansions); },
@@ -167,6 +192,9 @@ TeamSearch::Sources Guess::sources() const {
           },
           [this](int robot, std::span<const Traffic> traffic, const TeamSearch::Sources::Among& how) {
             return find_path_among(robot, traffic, how);
+          },
+          [this](int robot, int other, const Path& way, const Path& others) {
+            return ways_by_bays(robot, other, way, others);
           }};
 }
 

@@ -268,6 +268,19 @@ TeamSearch::Placed TeamSearch::place_along(int robot, const Path& path, const Te
   return nullptr;
 }
 
+// Where two cannot pass each other, one may wait beside its way: ways by such places are at hand from now on.
+void TeamSearch::add_bays(const std::vector<int>& group) {
+  for (const int robot : group)
+    for (const int other : group) {
+      if (robot == other || !sources_.by_bays || coordinator_.ways(robot).empty() ||
+          coordinator_.ways(other).empty())
+        continue;
+      const Path way = fastest_way(robot)->lattice.path(), others = fastest_way(other)->lattice.path();
+      for (Path& path : sources_.by_bays(robot, other, way, others))
+        keep(robot, coordinator_.make_way(robot, std::move(path), true));
+    }
+}
+
 // Few cars: all of them once more, one after the other among those before. Many: each that has no motion
 // together with those in its way.
 bool TeamSearch::rescue(TeamState& state, const TeamState& given, const Deadline& deadline) {
@@ -282,7 +295,10 @@ bool TeamSearch::rescue(TeamState& state, const TeamState& given, const Deadline
   std::vector<int> free;
   for (int robot = 0; robot < coordinator_.robots(); ++robot)
     if (!given[idx(robot)]) free.push_back(robot);
-  if (free.size() <= kFew) return rescue.run(free, state, deadline);
+  if (free.size() <= kFew) {
+    add_bays(free);
+    return rescue.run(free, state, deadline);
+  }
   for (int robot = 0; robot < coordinator_.robots(); ++robot) {
     if (state[idx(robot)]) continue;
     std::vector<int> group{robot};

@@ -55,6 +55,8 @@ class TeamSearch {
       bool hurry;    ///< likewise
     };
     std::function<std::optional<Path>(int robot, std::span<const Traffic> traffic, const Among& how)> among;
+    /// Paths of `robot` by a place beside its way where the other can drive by on its own way.
+    std::function<std::vector<Path>(int robot, int other, const Path& way, const Path& others)> by_bays;
   };
 
   TeamSearch(Coordinator& coordinator, Sources sources, const TeamSearchOptions& options, std::uint64_t seed);
@@ -84,6 +86,7 @@ class TeamSearch {
   Placed among(int robot, const TeamState& state, Placed best, int patience);
   void overtake(TeamState& state);
   Placed around_the_resting(int robot, const TeamState& state, std::span<const Traffic> traffic);
+  void add_bays(const std::vector<int>& group);
   bool rescue(TeamState& state, const TeamState& given, const Deadline& deadline);
   bool may_search() const;
   Placed place_somehow(int robot, const TeamState& state);
