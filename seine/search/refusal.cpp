@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "seine/search/leaving.hpp"
 #include "seine/search/motion.hpp"
 
 namespace seine::search {
@@ -49,10 +50,13 @@ Refusal why_no_way(const world::Scenario& scenario, const world::StaticMap& map,
   const geom::Vec2 middle{cover.widest().x, cover.axis};
   Refusal refusal;
   refusal.width = 2.0 * cover.widest().inner;
-  refusal.needed = refusal.width + 2.0 * scenario.margins.obstacle;
-  refusal.place = bottleneck(map, car.start * middle, *car.goal * middle, kCell * model.width(),
-                             refusal.needed - kGranted,
-                             std::max(0.5 * model.length() + scenario.margins.obstacle, refusal.needed));
+  // Inside the margin a car may have less on its way out.
+  const double margin =
+      starts_inside_margin(scenario, map, car) ? *scenario.margins.leaving : scenario.margins.obstacle;
+  refusal.needed = refusal.width + 2.0 * margin;
+  refusal.place =
+      bottleneck(map, car.start * middle, *car.goal * middle, kCell * model.width(),
+                 refusal.needed - kGranted, std::max(0.5 * model.length() + margin, refusal.needed));
   if (refusal.place && refusal.place->upper_width < refusal.needed - kGranted)
     refusal.cause = cause_of(*refusal.place, map.bounds());
   return refusal;

@@ -253,6 +253,7 @@ void SpeedLattice::add_group(const SweptFootprint& footprint, int first, int las
     const double drift = 0.5 * std::sqrt(level2) + kMoveSlack;
     slack.ahead = slack.behind = 0.5 * (s_at(last) - s_at(first)) + drift * grid_.unit;
     if (first == 0) slack.behind += s_at(0);  // the braking step of a moving start
+    if (careful_) stay_on_the_way(first, last, middle, slack);
     const int around = static_cast<int>(drift) + 1;
     for (int b = std::max(0, first - around); b <= std::min(units_, last + around); ++b)
       slack.curvature = std::max(slack.curvature, curvature_[idx(b)]);
@@ -261,6 +262,18 @@ void SpeedLattice::add_group(const SweptFootprint& footprint, int first, int las
   const std::span<geom::Vec2> out(&polygons_[polygons_.size() - corners_], corners_);
   const OrientedBox turned = footprint.cover(pose, slack, out);
   groups_.push_back({first, last, geom::bounding_box(out), turned});
+}
+
+// The car is never before its start nor beyond its goal: what stands there at the margin is not in its way.
+void SpeedLattice::stay_on_the_way(int first, int last, double middle, Slack& slack) const {
+  if (first >= stretches_.back().first) {
+    double& onwards = stretches_.back().gear > 0 ? slack.ahead : slack.behind;
+    onwards = std::min(onwards, path_.length() - middle);
+  }
+  if (last <= stretches_.front().last) {
+    double& back = stretches_.front().gear > 0 ? slack.behind : slack.ahead;
+    back = std::min(back, middle);
+  }
 }
 
 double SpeedLattice::speed_at(int unit, int level) const {

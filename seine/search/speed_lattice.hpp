@@ -103,6 +103,7 @@ class SpeedLattice {
   void reach_speeds();
   void build_moves();
   void build_groups(const SweptFootprint& footprint);
+  void stay_on_the_way(int first, int last, double middle, Slack& slack) const;
   void add_group(const SweptFootprint& footprint, int first, int last, PathCursor& cursor);
 
   Path path_;

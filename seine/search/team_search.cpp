@@ -269,7 +269,11 @@ TeamSearch::Placed TeamSearch::place_along(int robot, const Path& path, const Te
 }
 
 // Where two cannot pass each other, one may wait beside its way: ways by such places are at hand from now on.
+// Ends that stand at the margin to each other are reached carefully.
 void TeamSearch::add_bays(const std::vector<int>& group) {
+  for (const int robot : group)
+    if (!coordinator_.ways(robot).empty())
+      keep(robot, coordinator_.make_way(robot, fastest_way(robot)->lattice.path(), true));
   for (const int robot : group)
     for (const int other : group) {
       if (robot == other || !sources_.by_bays || coordinator_.ways(robot).empty() ||
