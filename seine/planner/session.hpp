@@ -39,6 +39,7 @@ class Session {
   bool have_guess(const Attempt& now);
   bool guessed_for(const Attempt& now) const;
   bool guess(std::uint64_t attempt);
+  std::string late_reason() const;
   void prepare(const Attempt& now);
   void place_bodies();
   void optimise(bool gently);
