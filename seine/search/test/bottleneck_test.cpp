@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "seine/base/effort.hpp"
 #include "seine/base/rng.hpp"
 #include "seine/search/refusal.hpp"
 
@@ -29,7 +30,7 @@ vehicle::Model car() {
 
 // A wall across the world with one opening, turned and moved anyhow.
 TEST(Bottleneck, OfAnOpeningIsItsWidthAndItsPlace) {
-  for (std::uint64_t seed = 1; seed <= 15; ++seed) {
+  for (std::uint64_t seed = 1; seed <= std::uint64_t{effort(15, 3)}; ++seed) {
     SCOPED_TRACE(seed);
     Rng rng(seed);
     const double width = rng.uniform(0.05, 1.2), at = rng.uniform(-3.0, 3.0), thick = rng.uniform(0.05, 1.0);
@@ -55,7 +56,7 @@ TEST(Bottleneck, OfAnOpeningIsItsWidthAndItsPlace) {
 
 // Among random discs a way that is known bounds the answer from below.
 TEST(Bottleneck, NeverProvesLessThanAWayThatIsThere) {
-  for (std::uint64_t seed = 1; seed <= 15; ++seed) {
+  for (std::uint64_t seed = 1; seed <= std::uint64_t{effort(15, 3)}; ++seed) {
     SCOPED_TRACE(seed);
     Rng rng(seed);
     world::Scenario scenario;

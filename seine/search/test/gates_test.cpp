@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "seine/base/effort.hpp"
 #include "seine/base/rng.hpp"
 #include "seine/search/motion.hpp"
 #include "seine/search/path_planner.hpp"
@@ -48,7 +49,7 @@ struct Door {
 
 TEST(Gates, StandInTheMiddleOfADoorAndAlongIt) {
   Rng rng(kSeed);
-  for (int trial = 0; trial < 24; ++trial) {
+  for (int trial = 0; trial < effort(24, 5); ++trial) {
     SCOPED_TRACE(testing::Message() << "seed " << kSeed << ", trial " << trial);
     const auto entries = vehicle::catalogue();
     const vehicle::Model& model = entries[static_cast<std::size_t>(trial) % entries.size()].model;

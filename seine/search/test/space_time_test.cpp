@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "seine/base/effort.hpp"
 #include "seine/base/rng.hpp"
 #include "seine/search/team_guess.hpp"
 #include "seine/search/test/team_check.hpp"
@@ -25,7 +26,7 @@ geom::Convex disc(double radius) {
 // At any time the body is inside the polygons of the tick, whatever the motion.
 TEST(MovingBody, ContainsTheObstacleAtAnyTime) {
   Rng rng(20);
-  for (int trial = 0; trial < 30; ++trial) {
+  for (int trial = 0; trial < effort(30, 6); ++trial) {
     SCOPED_TRACE(trial);
     const double pause = std::pow(10.0, rng.uniform(-4.0, 3.0));
     std::vector<world::Waypoint> motion;
@@ -105,7 +106,7 @@ TEST(SpaceTime, GoesRoundWhatStandsThoughItHasAMotion) {
 
 TEST(SpaceTime, Overtakes) {
   Rng rng(21);
-  for (int trial = 0; trial < 6; ++trial) {
+  for (int trial = 0; trial < effort(6, 2); ++trial) {
     SCOPED_TRACE(trial);
     world::Scenario scenario = field(6.0);
     scenario.robots = {{"", 0, {-8.0, 0.0, 0.0}, 0.0, Pose2{8.0, 0.0, 0.0}}};
@@ -118,7 +119,7 @@ TEST(SpaceTime, Overtakes) {
 
 TEST(SpaceTime, DodgesAndReturns) {
   Rng rng(22);
-  for (int trial = 0; trial < 6; ++trial) {
+  for (int trial = 0; trial < effort(6, 2); ++trial) {
     SCOPED_TRACE(trial);
     world::Scenario scenario = field(8.0);
     const double heading = rng.uniform(-kTurn, kTurn);
@@ -135,7 +136,7 @@ TEST(SpaceTime, DodgesAndReturns) {
 // A corridor between two rooms with a bay half way: someone makes way there, or waits in a room.
 TEST(SpaceTime, TwoCarsPassInACorridorWithABay) {
   Rng rng(23);
-  for (int trial = 0; trial < 4; ++trial) {
+  for (int trial = 0; trial < effort(4, 1); ++trial) {
     SCOPED_TRACE(trial);
     world::Scenario scenario = field(2.3);
     const double bay = rng.uniform(-1.0, 1.0), half = rng.uniform(0.28, 0.34);
