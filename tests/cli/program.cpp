@@ -52,7 +52,7 @@ double patience() {
 #ifdef SEINE_SANITIZED
   return 30.0;
 #else
-  return 1.0;
+  return 5.0;
 #endif
 }
 

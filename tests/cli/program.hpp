@@ -36,7 +36,7 @@ class Scratch {
 /// Exactly one line, ended.
 bool is_one_line(const std::string& text);
 
-/// Sanitizers make everything several times slower: times are held against limits with this factor.
+/// A busy machine is several times slower, sanitizers more: times are held against limits with this factor.
 double patience();
 
 /// A small valid task: two cars that pass each other, and whatever else `extra` adds (YAML at the top level).
