@@ -17,13 +17,15 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 }  // namespace
 
 GapProof::GapProof(Context& context, double margin)
-    : context_(context), levels_(static_cast<std::size_t>(kDeepest) + 3) {
+    : context_(context),
+      size_(smallest_size(context.scenario)),
+      levels_(static_cast<std::size_t>(kDeepest) + 3) {
   require(margin);
 }
 
 void GapProof::require(double margin) {
-  seen_ = margin - tolerance::kGapSeen;
-  proved_ = margin - tolerance::kGapProved;
+  seen_ = margin - tolerance::kGapSeen * size_;
+  proved_ = margin - tolerance::kGapProved * size_;
 }
 
 void GapProof::between(const Mover& a, const Mover& b) {

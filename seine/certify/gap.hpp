@@ -66,6 +66,7 @@ class GapProof {
   std::optional<Worst> result() const;
 
   Context& context_;
+  double size_;           // Granted::size of the smallest car
   double seen_, proved_;  // m
   const Mover* a_ = nullptr;
   const Mover* b_ = nullptr;
