@@ -9,20 +9,13 @@ namespace {
 using traj::Quintic;
 using traj::Segment;
 
-double power(double w, int exponent) {
-  double product = 1.0;
-  for (int i = 0; i < exponent; ++i) product *= w;
-  return product;
-}
-
-/// Σ k (k − 1) … (k − order + 1) c_k w^(k − order)
+/// Σ k (k − 1) … (k − order + 1) c_k w^(k − order), from the highest power down
 double polynomial(const Quintic& c, double w, int order) {
+  static constexpr double kFalling[4][6] = {
+      {1, 1, 1, 1, 1, 1}, {0, 1, 2, 3, 4, 5}, {0, 0, 2, 6, 12, 20}, {0, 0, 0, 6, 24, 60}};
   double sum = 0.0;
-  for (int k = order; k < 6; ++k) {
-    double factor = 1.0;
-    for (int i = 0; i < order; ++i) factor *= k - i;
-    sum += factor * c[static_cast<std::size_t>(k)] * power(w, k - order);
-  }
+  for (int k = 5; k >= order; --k)
+    sum = sum * w + kFalling[order][k] * c[static_cast<std::size_t>(k)];
   return sum;
 }
 

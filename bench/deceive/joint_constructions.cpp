@@ -18,7 +18,7 @@ double share(Genes& genes) {
 }
 
 int many(Genes& genes) {
-  return static_cast<int>(genes.log(3.0, 8000.0));
+  return static_cast<int>(genes.log(3.0, 4000.0));
 }
 
 /// A piece of curve from a place with a heading, a curvature and |p'|.

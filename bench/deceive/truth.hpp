@@ -33,7 +33,7 @@ struct Grants {
 
 /// Something that is truly wrong with a plan.
 struct Fault {
-  std::string what;
+  const char* what = "";  ///< of the messages of the look: one address each
   int robot = -1, other = -1;
   double time = 0.0;   ///< s
   double value = 0.0;  ///< met …

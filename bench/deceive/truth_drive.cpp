@@ -80,8 +80,10 @@ class DriveLook {
     const double slow = std::min(std::abs(a.speed), std::abs(b.speed));
     surge_allowed_ += limits_.acceleration * dt * kWindowRoom;
     drive_allowed_ += fastest_ * dt * kWindowRoom;
-    const double swerve = slow > 0.0 ? limits_.lateral_acceleration / slow * dt : 1e300;
-    turn_allowed_ += std::min(bend_ * (b.jump ? 0.0 : step), swerve) * kWindowRoom;
+    const double bends = bend_ * (b.jump ? 0.0 : step);
+    const bool swerves = slow > 0.0 && !std::isinf(limits_.lateral_acceleration);
+    turn_allowed_ +=
+        (swerves ? std::min(bends, limits_.lateral_acceleration / slow * dt) : bends) * kWindowRoom;
     steer(a, b, dt, fast);
     const double t = b.t;
     ledger_.offer("jumps of the position in all (m)", t, slipped_, 0.0, grants_.slip_lengths * length_);
