@@ -18,6 +18,8 @@ constexpr double kBlind = 1.0;     // s without a fix are too long to go on
 constexpr int kFailures = 3;       // of a controller in a row are too many to go on
 constexpr double kOffWay = 0.5;    // m beside its reference a car is lost
 constexpr double kPaceResponse = 0.2;   // s in which the clock is brought to the pace of the slowest
+// 1/s: so fast the clock may slow down although a car brakes as hard as it can; that one gets some cm ahead.
+constexpr double kAlways = 0.25;
 constexpr double kAfterCrossing = 0.2;  // s: flights are not known better
 
 std::string centimetres(double metres) {
@@ -93,7 +95,8 @@ void Conductor::keep_together(double time, std::span<const Car> cars) {
   if (time < free_from_) return;
   const double pace = pace_of(plan_, clock_, cars);
   const RateChange possible = possible_change(scenario_, plan_, clock_, std::nullopt);
-  clock_.accelerate(std::clamp((pace - clock_.rate()) / kPaceResponse, possible.least, possible.most), pace);
+  const double least = std::min(possible.least, -kAlways);
+  clock_.accelerate(std::clamp((pace - clock_.rate()) / kPaceResponse, least, possible.most), pace);
 }
 
 std::optional<std::string> Conductor::reason_to_stop(double time, std::span<const Car> cars) {
