@@ -20,6 +20,7 @@ struct PathPoint {
 /// the same s and pose and different gear.
 struct Path {
   std::vector<PathPoint> points;
+  std::vector<double> rests;  ///< m, ascending: driven lengths, each that of a point, at which the car stops
   double length() const { return points.empty() ? 0.0 : points.back().s; }
 };
 
@@ -43,7 +44,8 @@ struct TimedPath {
 };
 
 /// Drives on along `next`, which begins where `path` ends.
-void append(Path& path, const Path& next);
+/// @param rest  whether the car stops there, whatever its gears
+void append(Path& path, const Path& next, bool rest = false);
 
 /// Pose on the path at driven length s (clamped), interpolated between samples.
 geom::Pose2 pose_at(const Path& path, double s);

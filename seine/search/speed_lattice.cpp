@@ -83,9 +83,11 @@ void SpeedLattice::cut_stretches(double start_speed) {
   start_level_ = std::min(grid_.levels, static_cast<int>(start_speed_ / (grid_.acceleration * grid_.step)));
   std::size_t from = 0;
   for (std::size_t i = 1; i <= p.size() && drivable_; ++i) {
-    if (i < p.size() && p[i].gear == p[from].gear) continue;
+    const bool goes_on = i < p.size() && p[i].gear == p[from].gear;
+    const bool rests = goes_on && std::ranges::binary_search(path_.rests, p[i].s);
+    if (goes_on && !rests) continue;
     const double slowest = p[from].gear > 0 ? grid_.speed : grid_.reverse_speed;
-    const double end = p[i - 1].s;
+    const double end = p[rests ? i : i - 1].s;
     constexpr double kNothing = 1e-9;
     if (end - p[from].s > kNothing) drivable_ = add_stretch(p[from].s, end, p[from].gear, slowest);
     from = i;
@@ -246,7 +248,8 @@ void SpeedLattice::add_group(const SweptFootprint& footprint, int first, int las
   const double middle = 0.5 * (s_at(first) + s_at(last));
   const geom::Pose2 pose = cursor.advance(middle);
   Slack slack;
-  const bool resting = first == last && ((first == 0 && !stub_) || first == units_);
+  const bool resting = first == last && ((first == 0 && !stub_) || first == units_ ||
+                                         (careful_ && attainable2_[idx(first)] == 0.0));
   if (!resting) {
     double level2 = 0.0;
     for (int b = first; b <= last; ++b) level2 = std::max(level2, attainable2_[idx(b)]);

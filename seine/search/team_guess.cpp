@@ -9,11 +9,11 @@
 
 #include "seine/base/rng.hpp"
 #include "seine/base/workers.hpp"
-#include "seine/search/bays.hpp"
 #include "seine/search/blockers.hpp"
 #include "seine/search/coordinator.hpp"
 #include "seine/search/drive_time.hpp"
 #include "seine/search/leaving.hpp"
+#include "seine/search/making_way.hpp"
 #include "seine/search/path_planner.hpp"
 #include "seine/search/precedence.hpp"
 #include "seine/search/refusal.hpp"
@@ -29,6 +29,12 @@ namespace {
 
 std::size_t idx(int i) {
   return static_cast<std::size_t>(i);
+}
+
+std::vector<PathPlanner> planners_for(const world::Scenario& scenario, const world::StaticMap& map) {
+  std::vector<PathPlanner> planners;
+  for (const vehicle::Model& model : scenario.models) planners.emplace_back(map, model);
+  return planners;
 }
 
 // A set of ways for everybody, and how far it got with them.
@@ -52,8 +58,7 @@ class Guess {
   std::optional<Path> find_path_out(const world::Robot& who, const PathOptions& options) const;
   std::optional<Path> find_path_among(int robot, std::span<const Traffic> traffic,
                                       const TeamSearch::Sources::Among& how) const;
-  std::vector<Path> ways_by_bays(int robot, int other, const Path& way, const Path& others) const;
-  TeamSearch::Sources sources() const;
+  TeamSearch::Sources sources();
   Attempt new_attempt() const;
   std::optional<Path> find_first_way(int robot) const;
   bool find_first_ways(Attempt& attempt);
@@ -71,14 +76,19 @@ class Guess {
   std::vector<PathPlanner> planners_;                             // one for each model
   std::deque<SideStep> side_steps_;                               // likewise
   mutable std::vector<std::unique_ptr<SpaceTimePlanner>> among_;  // likewise, made when first needed
+  MakingWay making_way_;
   TeamGuess guess_;
 };
 
 Guess::Guess(const world::Scenario& scenario, const world::StaticMap& map, const GuessOptions& options)
-    : scenario_(scenario), map_(map), options_(options) {
+    : scenario_(scenario),
+      map_(map),
+      options_(options),
+      planners_(planners_for(scenario, map)),
+      making_way_(scenario, map, planners_,
+                  {scenario.margins.robot + options.extra_robot_clearance, options.deadline}) {
   Stopwatch watch;
   for (const vehicle::Model& model : scenario.models) {
-    planners_.emplace_back(map, model);
     side_steps_.emplace_back(map, model, scenario.margins.obstacle);
   }
   among_.resize(scenario.models.size());
@@ -161,30 +171,7 @@ std::optional<Path> Guess::find_path_from(const world::Robot& who, const geom::P
   return path && path->length() > 0.0 && path->points.front().gear == rolling.gear() ? path : std::nullopt;
 }
 
-// Ways that turn off into a place beside the way, where the other can drive by.
-std::vector<Path> Guess::ways_by_bays(int robot, int other, const Path& way, const Path& others) const {
-  constexpr int kBriefly = 4000;
-  const world::Robot& who = scenario_.robots[idx(robot)];
-  const PathPlanner& planner = planners_[idx(who.model)];
-  const PathOptions options{.max_expansions = kBriefly,
-                            .clearance = scenario_.margins.obstacle,
-                            .quickest = true,
-                            .deadline = options_.deadline};
-  std::vector<Path> ways;
-  if (who.start_speed != 0.0) return ways;
-  for (const geom::Pose2& bay :
-       bays_beside({&map_, &scenario_.model_of(who), &way, &scenario_.model_of(scenario_.robots[idx(other)]),
-                    &others, scenario_.margins.obstacle, scenario_.margins.robot})) {
-    std::optional<Path> path = planner.plan(who.start, bay, options);
-    const std::optional<Path> rest = path ? planner.plan(bay, *who.goal, options) : std::nullopt;
-    if (!rest) continue;
-    append(*path, *rest);
-    ways.push_back(*std::move(path));
-  }
-  return ways;
-}
-
-TeamSearch::Sources Guess::sources() const {
+TeamSearch::Sources Guess::sources() {
   return {[this](int robot, std::span<const Bump> bumps, std::span<const std::vector<geom::Vec2>> parked,
                  int expansions) { return find_path(robot, bumps, parked, expansions); },
           [this](int robot, const Path& path, double s, double offset, double beside) {
@@ -193,8 +180,11 @@ TeamSearch::Sources Guess::sources() const {
           [this](int robot, std::span<const Traffic> traffic, const TeamSearch::Sources::Among& how) {
             return find_path_among(robot, traffic, how);
           },
-          [this](int robot, int other, const Path& way, const Path& others) {
-            return ways_by_bays(robot, other, way, others);
+          [this](int robot, const Path& way, const MakingWay::Other& other) {
+            return making_way_.by_bays(robot, way, other);
+          },
+          [this](int robot, const Path& way, std::span<const MakingWay::Other> others) {
+            return making_way_.by_refuges(robot, way, others);
           }};
 }
 

@@ -274,15 +274,37 @@ void TeamSearch::add_bays(const std::vector<int>& group) {
   for (const int robot : group)
     if (!coordinator_.ways(robot).empty())
       keep(robot, coordinator_.make_way(robot, fastest_way(robot)->lattice.path(), true));
+  if (!sources_.by_bays) return;
   for (const int robot : group)
-    for (const int other : group) {
-      if (robot == other || !sources_.by_bays || coordinator_.ways(robot).empty() ||
-          coordinator_.ways(other).empty())
-        continue;
-      const Path way = fastest_way(robot)->lattice.path(), others = fastest_way(other)->lattice.path();
-      for (Path& path : sources_.by_bays(robot, other, way, others))
+    for (const MakingWay::Other& other : others_of(robot, group))
+      for (Path& path : sources_.by_bays(robot, fastest_way(robot)->lattice.path(), other))
         keep(robot, coordinator_.make_way(robot, std::move(path), true));
-    }
+}
+
+// Those of the group that have a way, on their fastest.
+std::vector<MakingWay::Other> TeamSearch::others_of(int robot, const std::vector<int>& group) const {
+  std::vector<MakingWay::Other> others;
+  if (coordinator_.ways(robot).empty()) return others;
+  for (const int other : group)
+    if (other != robot && !coordinator_.ways(other).empty())
+      others.push_back({other, fastest_way(other)->lattice.path()});
+  return others;
+}
+
+// The same by places that need not be beside the way. One that is off the ways of all others comes first.
+void TeamSearch::add_refuges(const std::vector<int>& group) {
+  if (!sources_.by_refuges) return;
+  for (const int robot : group) {
+    const std::vector<MakingWay::Other> others = others_of(robot, group);
+    if (others.empty()) continue;
+    const Path way = fastest_way(robot)->lattice.path();
+    const auto add = [&](std::span<const MakingWay::Other> from) {
+      for (Path& path : sources_.by_refuges(robot, way, from))
+        keep(robot, coordinator_.make_way(robot, std::move(path), true));
+    };
+    add(others);
+    for (std::size_t i = 0; i < others.size() && others.size() > 1; ++i) add({&others[i], 1});
+  }
 }
 
 // Few cars: all of them once more, one after the other among those before. Many: each that has no motion
@@ -301,6 +323,8 @@ bool TeamSearch::rescue(TeamState& state, const TeamState& given, const Deadline
     if (!given[idx(robot)]) free.push_back(robot);
   if (free.size() <= kFew) {
     add_bays(free);
+    if (rescue.run(free, state, deadline, Rescue::by_ways())) return true;
+    add_refuges(free);
     return rescue.run(free, state, deadline);
   }
   for (int robot = 0; robot < coordinator_.robots(); ++robot) {

@@ -10,6 +10,7 @@
 #include "seine/base/deadline.hpp"
 #include "seine/base/rng.hpp"
 #include "seine/search/coordinator.hpp"
+#include "seine/search/making_way.hpp"
 #include "seine/search/path_planner.hpp"
 #include "seine/search/precedence.hpp"
 
@@ -55,8 +56,10 @@ class TeamSearch {
       bool hurry;    ///< likewise
     };
     std::function<std::optional<Path>(int robot, std::span<const Traffic> traffic, const Among& how)> among;
-    /// Paths of `robot` by a place beside its way where the other can drive by on its own way.
-    std::function<std::vector<Path>(int robot, int other, const Path& way, const Path& others)> by_bays;
+    /// As MakingWay.
+    std::function<std::vector<Path>(int robot, const Path& way, const MakingWay::Other& other)> by_bays;
+    std::function<std::vector<Path>(int robot, const Path& way, std::span<const MakingWay::Other> others)>
+        by_refuges;
   };
 
   TeamSearch(Coordinator& coordinator, Sources sources, const TeamSearchOptions& options, std::uint64_t seed);
@@ -87,6 +90,8 @@ class TeamSearch {
   void overtake(TeamState& state);
   Placed around_the_resting(int robot, const TeamState& state, std::span<const Traffic> traffic);
   void add_bays(const std::vector<int>& group);
+  void add_refuges(const std::vector<int>& group);
+  std::vector<MakingWay::Other> others_of(int robot, const std::vector<int>& group) const;
   bool rescue(TeamState& state, const TeamState& given, const Deadline& deadline);
   bool may_search() const;
   Placed place_somehow(int robot, const TeamState& state);
