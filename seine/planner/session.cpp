@@ -17,7 +17,7 @@ namespace {
 constexpr double kGuessShare = 0.7;  // of the time that is left
 // A team that so many guesses could not solve is given up: without a deadline, and with one.
 constexpr int kFailedGuesses = 2, kMostFailedGuesses = 40;
-constexpr int kPolishRounds = 8;
+constexpr int kPolishRounds = 8, kBriefRounds = 4;
 constexpr int kStuckRounds = 3, kHopelessRounds = 6;
 constexpr double kHardlySlower = 1.03;  // a plan slowed by so little is not worth another attempt …
 constexpr int kBetterAttempts = 2;      // … others are worth so many
@@ -68,10 +68,16 @@ void Session::climb() {
     }
     if (deadline_.expired()) break;
     ++attempts_;
+    const bool brief = attempts_ == 1 && wriggles();
+    if (brief) stop_and_steer();
     prepare(now);
     optimise(now.gently);
     if (deadline_.expired()) break;
-    polish();
+    if (brief && slowed_) {
+      polish_briefly();
+      break;
+    }
+    polish(kPolishRounds);
     if (result_.certified) break;
     slow_down();
     if (now.gently) stop_and_steer();
@@ -278,6 +284,16 @@ std::vector<Session::Group> Session::movers(std::vector<Group> groups) const {
   return groups;
 }
 
+// For a better plan than one that holds: what is a little over its limits is slowed at once, and the
+// certificate is asked few times.
+void Session::polish_briefly() {
+  if (certify()) return;
+  slow_down();
+  if (slowed_by_ < kHardlySlower) return;
+  polish(kBriefRounds);
+  if (!result_.certified) slow_down();
+}
+
 bool Session::certify() {
   const Stopwatch watch;
   report("certify", 0.0);
@@ -295,11 +311,11 @@ bool Session::certify() {
   return result_.certified;
 }
 
-void Session::polish() {
-  for (int round = 0; round < kPolishRounds; ++round) {
+void Session::polish(int rounds) {
+  for (int round = 0; round < rounds; ++round) {
     if (certify() || deadline_.expired() || result_.certificate.violations.empty()) return;
     const Stopwatch watch;
-    report("repair", static_cast<double>(round) / kPolishRounds);
+    report("repair", static_cast<double>(round) / rounds);
     std::vector<Group> groups = raise_demands(round), stuck;
     if (round > 0) settings_.pair_penalty *= 2.0;
     // A car that more weight does not help sits in a bad valley: it and its group go back to their guess.

@@ -48,6 +48,17 @@ void Session::stop_and_steer() {
   slowed_by_ = std::numeric_limits<double>::infinity();
 }
 
+// Whether a car by itself goes forth and back many times: then the optimiser has little to better, and much
+// work with it.
+bool Session::wriggles() const {
+  constexpr int kMany = 3;  // gear changes
+  if (guess_.robots.size() != 1) return false;
+  int changes = 0;
+  const auto& points = guess_.robots[0].path.points;
+  for (std::size_t i = 1; i < points.size(); ++i) changes += points[i].gear != points[i - 1].gear;
+  return changes >= kMany;
+}
+
 // The shorter of what held at once and what held slower.
 void Session::settle() {
   if (!slowed_ || (result_.certified && result_.plan.makespan() <= slowed_->plan.makespan())) return;

@@ -21,6 +21,8 @@ struct PathPoint {
 struct Path {
   std::vector<PathPoint> points;
   std::vector<double> rests;  ///< m, ascending: driven lengths, each that of a point, at which the car stops
+  /// Whether it is the quickest of many ways out of a tight place or into one: no other search need be tried.
+  bool wriggles = false;
   double length() const { return points.empty() ? 0.0 : points.back().s; }
 };
 

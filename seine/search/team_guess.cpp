@@ -213,7 +213,7 @@ std::optional<Path> Guess::find_first_way(int robot) const {
   if (alone && options_.seed != 0) best = find_path(robot, bumps(options_.seed), {}, kPatience);
   if (!best) best = find_path(robot, {}, {}, kPatience);
   if (!alone || options_.seed != 0 || !options_.quickest || who.start_speed != 0.0) return best;
-  if (!best || !changes_gear(*best)) return best;
+  if (!best || !changes_gear(*best) || best->wriggles) return best;
   double quickest = drive_time(*best, model);
   for (std::uint64_t seed = 1; seed <= kMoreWays && !options_.deadline.expired(); ++seed) {
     std::optional<Path> other = find_path(robot, bumps(seed), {}, kBriefly);
