@@ -9,6 +9,8 @@
 namespace seine::search {
 namespace {
 
+constexpr int kMostMakingWay = 24;  // ways kept for a car that may have to make way
+
 std::size_t idx(int i) {
   return static_cast<std::size_t>(i);
 }
@@ -278,7 +280,7 @@ void TeamSearch::add_bays(const std::vector<int>& group) {
   for (const int robot : group)
     for (const MakingWay::Other& other : others_of(robot, group))
       for (Path& path : sources_.by_bays(robot, fastest_way(robot)->lattice.path(), other))
-        keep(robot, coordinator_.make_way(robot, std::move(path), true));
+        keep(robot, coordinator_.make_way(robot, std::move(path), true), kMostMakingWay);
 }
 
 // Those of the group that have a way, on their fastest.
@@ -300,7 +302,7 @@ void TeamSearch::add_refuges(const std::vector<int>& group) {
     const Path way = fastest_way(robot)->lattice.path();
     const auto add = [&](std::span<const MakingWay::Other> from) {
       for (Path& path : sources_.by_refuges(robot, way, from))
-        keep(robot, coordinator_.make_way(robot, std::move(path), true));
+        keep(robot, coordinator_.make_way(robot, std::move(path), true), kMostMakingWay);
     };
     add(others);
     for (std::size_t i = 0; i < others.size() && others.size() > 1; ++i) add({&others[i], 1});
@@ -311,6 +313,7 @@ void TeamSearch::add_refuges(const std::vector<int>& group) {
 // together with those in its way.
 bool TeamSearch::rescue(TeamState& state, const TeamState& given, const Deadline& deadline) {
   if (!sources_.among) return false;
+  ++effort_.rescues;
   constexpr std::size_t kFew = 3;
   Rescue rescue(
       coordinator_,
@@ -344,10 +347,10 @@ bool TeamSearch::may_search() const {
 }
 
 // When there are too many, another one than the first goes.
-bool TeamSearch::keep(int robot, const std::shared_ptr<Way>& way) {
+bool TeamSearch::keep(int robot, const std::shared_ptr<Way>& way, int most) {
   if (!way || !coordinator_.finish_way(*way)) return false;
   const int count = static_cast<int>(coordinator_.ways(robot).size());
-  if (count >= options_.most_ways) coordinator_.drop_way(robot, 1 + rng_.below(count - 1));
+  if (count >= std::max(most, options_.most_ways)) coordinator_.drop_way(robot, 1 + rng_.below(count - 1));
   coordinator_.keep_way(robot, way);
   return true;
 }

@@ -72,7 +72,7 @@ class TeamSearch {
     int paths = 0;       ///< searched for
     int side_steps = 0;  ///< that were free of obstacles
     int placements = 0;  ///< velocity plans among the others, over all ways
-    int rescues = 0;     ///< space-time searches
+    int rescues = 0;     ///< rescues begun, and space-time searches
   };
   const Effort& effort() const { return effort_; }
   /// Lowers the sum of arrivals of a complete state; never makes it worse.
@@ -97,7 +97,7 @@ class TeamSearch {
   Placed place_somehow(int robot, const TeamState& state);
   void repair(TeamState& state, const Deadline& deadline);
   void shuffle(std::vector<int>& list, int from);
-  bool keep(int robot, const std::shared_ptr<Way>& way);
+  bool keep(int robot, const std::shared_ptr<Way>& way, int most = 0);
   Placed place_along(int robot, const Path& path, const TeamState& state);
   std::shared_ptr<Way> keep_path(int robot, std::optional<Path> path);
   bool late(int robot, double arrival) const;
