@@ -70,6 +70,7 @@ bool TeamSearch::solve(TeamState& state, const Deadline& deadline, std::span<con
       fewest = left;
       best = state;
     }
+    if (hopeless_) break;
     for (double& key : keys) key = rng_.uniform();
     order = precedence_.order(keys);
   }
@@ -309,6 +310,13 @@ void TeamSearch::add_refuges(const std::vector<int>& group) {
   }
 }
 
+bool TeamSearch::prove_hopeless(const std::vector<int>& group) {
+  for (std::size_t i = 0; i < group.size() && sources_.cannot_both && !hopeless_; ++i)
+    for (std::size_t j = i + 1; j < group.size() && !hopeless_; ++j)
+      if (sources_.cannot_both(group[i], group[j])) hopeless_ = {group[i], group[j]};
+  return hopeless_.has_value();
+}
+
 // Few cars: all of them once more, one after the other among those before. Many: each that has no motion
 // together with those in its way.
 bool TeamSearch::rescue(TeamState& state, const TeamState& given, const Deadline& deadline) {
@@ -327,6 +335,7 @@ bool TeamSearch::rescue(TeamState& state, const TeamState& given, const Deadline
   if (free.size() <= kFew) {
     add_bays(free);
     if (rescue.run(free, state, deadline, Rescue::by_ways())) return true;
+    if (prove_hopeless(free)) return false;
     add_refuges(free);
     return rescue.run(free, state, deadline);
   }
