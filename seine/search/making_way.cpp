@@ -1,6 +1,7 @@
 #include "seine/search/making_way.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "seine/geom/convex.hpp"
@@ -15,14 +16,23 @@ constexpr std::size_t kRefuges = 3;  // for one car and those it makes way for
 constexpr double kSlack = 0.025, kEaseRadius = 1.5, kDiscCell = 0.2;
 constexpr double kRoom = 0.03;  // car lengths, on top of the clearance to the others' ways
 
+constexpr double kReverse = 1.3;          // what a metre backwards costs
+constexpr double kSteeringChange = 0.05;  // turning radii, from straight to the tightest turn
+
 /// One search for refuges, lengths in turning radii.
 struct Rung {
-  double radius, step, cell;
+  double radius;   // of the smallest turning radius …
+  double lengths;  // … and at least so many car lengths
+  double step, cell;
   int headings;
   double slack;  // of the full slack
   int expansions;
 };
-constexpr Rung kRungs[] = {{1.1, 0.8, 0.45, 24, 1.0, 3000}, {1.02, 0.4, 0.2, 36, 0.2, 8000}};
+// A car that turns on the spot, nearly, would be turned far too much by each move between two walls.
+constexpr Rung kRungs[] = {{1.1, 0.0, 0.8, 0.45, 24, 1.0, 2000},
+                           {1.1, 1.0, 0.3, 0.2, 36, 0.5, 3000},
+                           {1.02, 0.0, 0.4, 0.2, 36, 0.2, 8000},
+                           {1.02, 2.0, 0.1, 0.06, 72, 0.2, 8000}};
 
 std::size_t idx(int i) {
   return static_cast<std::size_t>(i);
@@ -87,7 +97,10 @@ std::vector<Route> MakingWay::routes_to_refuges(int robot, const Lane& lane, con
   const double room = free.exact_room(who.start);
   for (const Rung& rung : kRungs) {
     FootprintChecker checker = free;
-    const double slack = rung.slack * kSlack * model.length(), radius = rung.radius / model.max_curvature();
+    const double slack = rung.slack * kSlack * model.length(), tightest = 1.0 / model.max_curvature(),
+                 radius = std::max(rung.radius * tightest, rung.lengths * model.length());
+    // For a car that turns wide anyway the gentle searches are the others over again.
+    if (rung.lengths > 0.0 && radius < 1.5 * tightest) continue;
     checker.set_slack(slack);
     checker.ease_slack(who.start.position(), kEaseRadius * model.length(),
                        std::clamp(0.5 * room, 0.0, slack));
@@ -101,6 +114,13 @@ std::vector<Route> MakingWay::routes_to_refuges(int robot, const Lane& lane, con
                                         .max_expansions = rung.expansions,
                                         .deadline = settings_.deadline},
                                        kRefuges);
+    RouteCosts costs;
+    costs.radius = radius;
+    costs.driving.reverse =
+        model.limits.reverse_speed > 0.0 ? kReverse : std::numeric_limits<double>::infinity();
+    costs.driving.gear_change = radius;
+    costs.steering_change = kSteeringChange * radius;
+    for (Route& route : found) shorten(route, checker, costs);
     if (!found.empty()) return found;
   }
   return {};

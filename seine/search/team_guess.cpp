@@ -14,6 +14,7 @@
 #include "seine/search/drive_time.hpp"
 #include "seine/search/leaving.hpp"
 #include "seine/search/making_way.hpp"
+#include "seine/search/no_passing.hpp"
 #include "seine/search/path_planner.hpp"
 #include "seine/search/precedence.hpp"
 #include "seine/search/refusal.hpp"
@@ -30,6 +31,8 @@ namespace {
 std::size_t idx(int i) {
   return static_cast<std::size_t>(i);
 }
+
+constexpr std::size_t kMostPairs = 4'000'000;  // of cells in a proof: some tenths of a second
 
 std::vector<PathPlanner> planners_for(const world::Scenario& scenario, const world::StaticMap& map) {
   std::vector<PathPlanner> planners;
@@ -185,7 +188,8 @@ TeamSearch::Sources Guess::sources() {
           },
           [this](int robot, const Path& way, std::span<const MakingWay::Other> others) {
             return making_way_.by_refuges(robot, way, others);
-          }};
+          },
+          [this](int a, int b) { return cannot_both_arrive(scenario_, map_, a, b, kMostPairs); }};
 }
 
 // Nobody has a way yet; who is fixed has its motion.
@@ -282,6 +286,10 @@ void Guess::coordinate(Attempt& attempt) {
   TeamSearch search(*attempt.coordinator, sources(), options_.team, options_.seed);
   attempt.complete = search.solve(attempt.state, options_.deadline, first_order(*attempt.coordinator));
   if (attempt.complete) search.improve(attempt.state, options_.deadline);
+  if (search.hopeless()) {
+    guess_.reason = cannot_pass_sentence(scenario_, search.hopeless()->first, search.hopeless()->second);
+    guess_.impossible = true;
+  }
   guess_.effort = search.effort();
 }
 
@@ -394,7 +402,7 @@ TeamGuess guess_team(const world::Scenario& scenario, const world::StaticMap& ma
   guess.extra_robot_clearance = options.extra_robot_clearance;
   const bool rolling = std::any_of(scenario.robots.begin(), scenario.robots.end(),
                                    [](const world::Robot& robot) { return robot.start_speed != 0.0; });
-  if (!guess.complete && rolling && !options.deadline.expired()) {
+  if (!guess.complete && !guess.impossible && rolling && !options.deadline.expired()) {
     constexpr double kHard = 0.985;  // of the limits, where a car has to stop at once
     GuessOptions hard = options;
     hard.lattice.acceleration_factor = kHard;
@@ -403,13 +411,15 @@ TeamGuess guess_team(const world::Scenario& scenario, const world::StaticMap& ma
   }
   // Cars that start nose to nose may not be able to part with more room than the margin.
   for (const double share : {0.5, 0.0}) {
-    if (guess.complete || options.extra_robot_clearance <= 0.0 || options.deadline.expired()) break;
+    if (guess.complete || guess.impossible || options.extra_robot_clearance <= 0.0 ||
+        options.deadline.expired())
+      break;
     GuessOptions less = options;
     less.extra_robot_clearance = share * options.extra_robot_clearance;
     guess = Guess(scenario, map, less).run();
     guess.extra_robot_clearance = less.extra_robot_clearance;
   }
-  if (!guess.complete && !options.explain) return guess;
+  if (guess.impossible || (!guess.complete && !options.explain)) return guess;
   if (!guess.without_way.empty()) {
     Verdict verdict = why_no_ways(scenario, map, guess.without_way, options.deadline.expired());
     guess.reason = std::move(verdict.reason);

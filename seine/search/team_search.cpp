@@ -9,6 +9,8 @@
 namespace seine::search {
 namespace {
 
+constexpr int kMostMakingWay = 24;  // ways kept for a car that may have to make way
+
 std::size_t idx(int i) {
   return static_cast<std::size_t>(i);
 }
@@ -68,6 +70,7 @@ bool TeamSearch::solve(TeamState& state, const Deadline& deadline, std::span<con
       fewest = left;
       best = state;
     }
+    if (hopeless_) break;
     for (double& key : keys) key = rng_.uniform();
     order = precedence_.order(keys);
   }
@@ -278,7 +281,7 @@ void TeamSearch::add_bays(const std::vector<int>& group) {
   for (const int robot : group)
     for (const MakingWay::Other& other : others_of(robot, group))
       for (Path& path : sources_.by_bays(robot, fastest_way(robot)->lattice.path(), other))
-        keep(robot, coordinator_.make_way(robot, std::move(path), true));
+        keep(robot, coordinator_.make_way(robot, std::move(path), true), kMostMakingWay);
 }
 
 // Those of the group that have a way, on their fastest.
@@ -300,17 +303,25 @@ void TeamSearch::add_refuges(const std::vector<int>& group) {
     const Path way = fastest_way(robot)->lattice.path();
     const auto add = [&](std::span<const MakingWay::Other> from) {
       for (Path& path : sources_.by_refuges(robot, way, from))
-        keep(robot, coordinator_.make_way(robot, std::move(path), true));
+        keep(robot, coordinator_.make_way(robot, std::move(path), true), kMostMakingWay);
     };
     add(others);
     for (std::size_t i = 0; i < others.size() && others.size() > 1; ++i) add({&others[i], 1});
   }
 }
 
+bool TeamSearch::prove_hopeless(const std::vector<int>& group) {
+  for (std::size_t i = 0; i < group.size() && sources_.cannot_both && !hopeless_; ++i)
+    for (std::size_t j = i + 1; j < group.size() && !hopeless_; ++j)
+      if (sources_.cannot_both(group[i], group[j])) hopeless_ = {group[i], group[j]};
+  return hopeless_.has_value();
+}
+
 // Few cars: all of them once more, one after the other among those before. Many: each that has no motion
 // together with those in its way.
 bool TeamSearch::rescue(TeamState& state, const TeamState& given, const Deadline& deadline) {
   if (!sources_.among) return false;
+  ++effort_.rescues;
   constexpr std::size_t kFew = 3;
   Rescue rescue(
       coordinator_,
@@ -324,6 +335,7 @@ bool TeamSearch::rescue(TeamState& state, const TeamState& given, const Deadline
   if (free.size() <= kFew) {
     add_bays(free);
     if (rescue.run(free, state, deadline, Rescue::by_ways())) return true;
+    if (prove_hopeless(free)) return false;
     add_refuges(free);
     return rescue.run(free, state, deadline);
   }
@@ -344,10 +356,10 @@ bool TeamSearch::may_search() const {
 }
 
 // When there are too many, another one than the first goes.
-bool TeamSearch::keep(int robot, const std::shared_ptr<Way>& way) {
+bool TeamSearch::keep(int robot, const std::shared_ptr<Way>& way, int most) {
   if (!way || !coordinator_.finish_way(*way)) return false;
   const int count = static_cast<int>(coordinator_.ways(robot).size());
-  if (count >= options_.most_ways) coordinator_.drop_way(robot, 1 + rng_.below(count - 1));
+  if (count >= std::max(most, options_.most_ways)) coordinator_.drop_way(robot, 1 + rng_.below(count - 1));
   coordinator_.keep_way(robot, way);
   return true;
 }
