@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "seine/certify/certificate.hpp"
+#include "seine/planner/arc_plan.hpp"
 #include "seine/planner/faults.hpp"
 #include "seine/planner/groups.hpp"
 #include "seine/planner/moving_bodies.hpp"
@@ -22,6 +23,7 @@ constexpr int kStuckRounds = 3, kHopelessRounds = 6;
 constexpr double kHardlySlower = 1.03;  // a plan slowed by so little is not worth another attempt …
 constexpr int kBetterAttempts = 2;      // … others are worth so many
 constexpr double kTick = 0.0667;        // of the time a car takes to drive its own length
+constexpr double kMostTicks = 40e3;     // of a plan; one that takes longer is looked at less often
 constexpr double kCloseGap = 0.25;      // car lengths: cars that come this close are optimised jointly
 constexpr double kPenaltyRaise = 3.0, kMostPenalty = 100.0;
 constexpr double kTightenRaise = 0.005, kMostTighten = 0.03;
@@ -32,6 +34,18 @@ constexpr int kLargeGroup = 6;            // a group this large is worth all thr
 bool searches_differ(const world::Scenario& scenario) {
   return scenario.robots.size() > 1 ||
          std::ranges::any_of(scenario.obstacles, [](const auto& o) { return !o.motion.empty(); });
+}
+
+// What no spline of ours can follow is driven arc by arc, with a stop between them: among hundreds of metres
+// that is little.
+std::optional<traj::RobotTrajectory> long_drive(const search::TimedPath& guess, const vehicle::Model& model,
+                                                double start_speed) {
+  if (start_speed != 0.0 || !too_long_to_fit(guess, model)) return std::nullopt;
+  traj::RobotTrajectory drive = drive_arcs(guess.path, model, 0.0);
+  if (drive.segments.empty()) return std::nullopt;
+  for (const search::ProfileKnot& knot : guess.profile)
+    if (knot.s <= 0.0) drive.segments.front().wait = knot.t;
+  return drive;
 }
 
 }  // namespace
@@ -155,6 +169,7 @@ void Session::prepare(const Attempt& now) {
     const auto i = static_cast<std::size_t>(k);
     const world::Robot& robot = scenario_.robots[i];
     given_[i] = straight_hop(guess_.robots[i], scenario_.model_of(robot), robot.start_speed);
+    if (!given_[i]) given_[i] = long_drive(guess_.robots[i], scenario_.model_of(robot), robot.start_speed);
     if (given_[i])
       tasks_[i].model = scenario_.model_of(robot);
     else
@@ -164,9 +179,9 @@ void Session::prepare(const Attempt& now) {
   });
   settings_ = {};
   units_ = trajopt::units_of(tasks_);
-  tick_ = kTick * units_.time;
   double last = 0.0;
   for (const search::TimedPath& path : guess_.robots) last = std::max(last, path.arrival());
+  tick_ = std::max(kTick * units_.time, last / kMostTicks);
   ticks_ = static_cast<int>(std::ceil(1.2 * last / tick_)) + 80;
   bodies_.clear();
   for (const trajopt::RobotTask& task : tasks_)

@@ -143,6 +143,7 @@ LatticeResult PathPlanner::Impl::climb(const Rung& rung, const FootprintChecker&
                                        bool backwards, const PathOptions& options, int expansions) {
   const double radius = rung.radius / model.max_curvature();
   const CostToGoCache::Loan to_go(cache, way(rung.gaps, options.clearance), ends.goal * reference);
+  to_go.get()->until(options.deadline);
   LatticeProblem problem;
   problem.start = ends.start;
   problem.goal = ends.goal;
@@ -211,6 +212,7 @@ std::optional<Route> PathPlanner::Impl::through_gates(const Ends& ends, double m
   std::vector<Gate> gates;
   {
     const CostToGoCache::Loan to_go(cache, disc, ends.goal * reference);
+    to_go.get()->until(options.deadline);
     gates =
         gates_between(map, model, *to_go.get(), disc, reference, ends.start, ends.goal, options.clearance);
   }

@@ -194,7 +194,8 @@ TeamSearch::Sources Guess::sources() {
 
 // Nobody has a way yet; who is fixed has its motion.
 Attempt Guess::new_attempt() const {
-  Attempt attempt{std::make_unique<Coordinator>(scenario_, options_.lattice, options_.extra_robot_clearance),
+  Attempt attempt{std::make_unique<Coordinator>(scenario_, options_.lattice, options_.extra_robot_clearance,
+                                                options_.deadline),
                   TeamState(scenario_.robots.size())};
   if (options_.fixed != nullptr)
     for (std::size_t i = 0; i < scenario_.robots.size(); ++i)
