@@ -31,7 +31,7 @@ void GapProof::between(const Mover& a, const Mover& b) {
   b_ = &b;
   radii_ = a.radius + b.radius;
   normal_ = {};
-  resize(a.core.size(), b.core.size());
+  corners_a_ = a.core.size(), corners_b_ = b.core.size();
 }
 
 void GapProof::between(const Mover& a, std::span<const Vec2> fixed, double radius) {
@@ -40,12 +40,7 @@ void GapProof::between(const Mover& a, std::span<const Vec2> fixed, double radiu
   fixed_ = fixed;
   radii_ = a.radius + radius;
   normal_ = {};
-  resize(a.core.size(), levels_.front().b.size());
-}
-
-void GapProof::resize(std::size_t a, std::size_t b) {
-  if (levels_.front().a.size() == a && levels_.front().b.size() == b) return;
-  for (Placed& placed : levels_) placed.a.resize(a), placed.b.resize(b);
+  corners_a_ = a.core.size(), corners_b_ = 0;
 }
 
 double GapProof::wanted() const {

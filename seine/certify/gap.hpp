@@ -54,7 +54,6 @@ class GapProof {
   struct Placed {
     std::vector<geom::Vec2> a, b;
   };
-  void resize(std::size_t a, std::size_t b);
   void place(double t, Placed& out) const;
   double gap_along(geom::Vec2 normal, const Placed& at) const;
   void met(double distance, double time);
@@ -62,7 +61,12 @@ class GapProof {
   void refine_inside(const geom::Box& bounds, double t0, double gap0, double t1, double gap1, int depth);
   double gap_inside(const geom::Box& bounds, double t);
   bool give_up(double time, int depth);
-  Placed& level(int depth) { return levels_[static_cast<std::size_t>(depth)]; }
+  /// With room for both bodies; deep levels are hardly ever reached, and never made then.
+  Placed& level(int depth) {
+    Placed& placed = levels_[static_cast<std::size_t>(depth)];
+    placed.a.resize(corners_a_), placed.b.resize(corners_b_);
+    return placed;
+  }
   std::optional<Worst> result() const;
 
   Context& context_;
@@ -70,6 +74,7 @@ class GapProof {
   const Mover* a_ = nullptr;
   const Mover* b_ = nullptr;
   std::span<const geom::Vec2> fixed_;
+  std::size_t corners_a_ = 0, corners_b_ = 0;
   double radii_ = 0.0;
   const Cell* cell_a_ = nullptr;
   const Cell* cell_b_ = nullptr;
