@@ -110,13 +110,20 @@ class Cutter {
     chunks_.push_back({traj::piece_at(middle, pieces_), from, to, run_direction_, back, -1.0});
   }
 
-  /// Where u passes `level` between two parameters that enclose it.
+  /// Where u passes `level` between two parameters that enclose it: Newton's steps, or halves where those
+  /// leave the bracket.
   double crossing(double level, double sign, double low, double high) const {
-    for (int i = 0; i < 60 && high - low > 1e-16; ++i) {
-      const double middle = 0.5 * (low + high);
-      (sign * (u(middle) - level) < 0.0 ? low : high) = middle;
+    constexpr double kAsGood = 1e-15;
+    double at = 0.5 * (low + high);
+    for (int i = 0; i < 60; ++i) {
+      const double off = u(at) - level;
+      (sign * off < 0.0 ? low : high) = at;
+      const double newton = at - off / traj::slope_at(progress_, at);
+      const double next = newton > low && newton < high ? newton : 0.5 * (low + high);
+      if (std::abs(next - at) <= kAsGood) return next;
+      at = next;
     }
-    return 0.5 * (low + high);
+    return at;
   }
 
   const Quintic& progress_;

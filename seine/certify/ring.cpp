@@ -72,14 +72,16 @@ void RingProof::add_holding() {
 void RingProof::run() {
   check_start();
   Rules left;
+  const Rules* before = nullptr;  // the rules of the last beat, which were looked at where this one begins
   for (const Beat& beat : formation_.beats()) {
     const Slice slice = formation_.slice(beat);
     const Rules& rules = beat.held ? while_held_ : beat.loaded ? while_loaded_ : always_;
     for (const std::size_t r : rules) {
       rules_[r].worst = 0.0;
-      look(rules_[r], slice, slice.from, beat.t0);
+      if (before != &rules) look(rules_[r], slice, slice.from, beat.t0);
       look(rules_[r], slice, slice.to, beat.t1);
     }
+    before = &rules;
     unproved(rules, slice, left);
     if (!left.empty()) refine(left, slice, 0);
   }

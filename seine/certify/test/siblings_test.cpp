@@ -73,7 +73,7 @@ double between(Rng& rng, double low, double high) {
 
 TEST(Siblings, TurnOnTheSpot) {
   expect_refused(1000, [](Rng& rng, Case& c) {
-    const double step = between(rng, 1e-6, 0.9e-4), turn = between(rng, 2e-3, 0.1);
+    const double step = between(rng, 1e-5, 0.9e-4), turn = between(rng, 2e-3, 0.03);
     const double duration = between(rng, 1e-6, 1e-3);
     for (double heading = 0.0; heading < turn; heading += step)
       c.way.segments.push_back(standing_at({0.0, 0.0, heading}, c.length, duration));
