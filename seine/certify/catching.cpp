@@ -134,7 +134,7 @@ void CatchCheck::judge(std::size_t target, const net::Catch& c) {
        "%.4f m inside where it meets the net (%.4f required)"},
       {c.opening, net::kLeastOpening, tolerance::kNetProved, true, "a net open to %.4f (%.4f required)"},
       {c.angle, net::kMaxAngle, tolerance::kStartHeading, false, "%.4f rad from vertical (%.4f allowed)"},
-      {c.speed, fastest, tolerance::kSpeed, false, "%.4f m/s relative to the net (%.4f allowed)"},
+      {c.speed, fastest, tolerance::kCatchSpeed, false, "%.4f m/s relative to the net (%.4f allowed)"},
       {c.bottom, lowest, tolerance::kNetProved, true,
        "%.4f m above the ground at the deepest (%.4f required)"}};
   std::string all;

@@ -53,7 +53,7 @@ class RobotClearance {
     const world::Margins& margins = context_.scenario.margins;
     if (!(margins.leaving.value_or(margins.obstacle) < margins.obstacle)) return;
     std::vector<Vec2> placed(mover_.core.size());
-    const double wanted = margins.obstacle - tolerance::kGapSeen;
+    const double wanted = margins.obstacle - tolerance::kGapSeen * smallest_size(context_.scenario);
     std::size_t cell = 0;
     for (long step = 0;; ++step) {
       const double t = static_cast<double>(step) * kFreeStep;

@@ -61,20 +61,16 @@ class GapProof {
   void refine_inside(const geom::Box& bounds, double t0, double gap0, double t1, double gap1, int depth);
   double gap_inside(const geom::Box& bounds, double t);
   bool give_up(double time, int depth);
-  /// With room for both bodies; deep levels are hardly ever reached, and never made then.
-  Placed& level(int depth) {
-    Placed& placed = levels_[static_cast<std::size_t>(depth)];
-    placed.a.resize(corners_a_), placed.b.resize(corners_b_);
-    return placed;
-  }
+  /// Room for both bodies' points; one for each depth of the halving, made when it is first reached.
+  Placed& level(int depth);
   std::optional<Worst> result() const;
 
   Context& context_;
+  double size_;           // Granted::size of the smallest car
   double seen_, proved_;  // m
   const Mover* a_ = nullptr;
   const Mover* b_ = nullptr;
   std::span<const geom::Vec2> fixed_;
-  std::size_t corners_a_ = 0, corners_b_ = 0;
   double radii_ = 0.0;
   const Cell* cell_a_ = nullptr;
   const Cell* cell_b_ = nullptr;
@@ -82,6 +78,7 @@ class GapProof {
   geom::Vec2 normal_;  // the last one that parted this pair; zero: none yet
   Worst worst_{};
   int steps_ = 0;
+  std::size_t points_a_ = 0, points_b_ = 0;
   std::vector<Placed> levels_;
 };
 

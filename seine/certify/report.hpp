@@ -3,6 +3,7 @@
 #include <atomic>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "seine/certify/certificate.hpp"
@@ -61,6 +62,9 @@ struct Context {
 
 /// printf into a string.
 [[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...);
+
+/// Two numbers as text, with four digits or as many as it takes to tell them apart.
+std::pair<std::string, std::string> told_apart(double value, double limit);
 
 /// The worst `per_sort` of each (kind, robot, other), by time.
 std::vector<Violation> worst_of_each(std::vector<Finding> findings, int per_sort);
