@@ -31,7 +31,6 @@ RingProof::RingProof(Context& context, const Formation& formation)
   add_holding();
   while_held_ = while_loaded_;
   add(while_held_, {.sort = open, .limit = net::kHeldOpening, .episodes = {}});
-  for (Level& level : levels_) level.middle.resize(formation.size());
 }
 
 void RingProof::add(Rules& list, Rule rule) {
@@ -71,22 +70,43 @@ void RingProof::add_holding() {
 
 void RingProof::run() {
   check_start();
+  glimpse();
   Rules left;
+  const Rules* before = nullptr;  // the rules of the last beat, which were looked at where this one begins
   for (const Beat& beat : formation_.beats()) {
     const Slice slice = formation_.slice(beat);
     due_.clear();
-    for (const std::size_t r : beat.held ? while_held_ : beat.loaded ? while_loaded_ : always_) {
+    const Rules& rules = rules_on(beat);
+    for (const std::size_t r : rules) {
       Rule& rule = rules_[r];
       if (beat.strayed_within <= rule.lasts) continue;
       due_.push_back(r);
       rule.worst = 0.0;
-      look(rule, slice, slice.from, beat.t0);
+      if (before != &rules) look(rule, slice, slice.from, beat.t0);
       const double found = look(rule, slice, slice.to, beat.t1);
       rule.lasts = beat.strayed + reserve(rule, slice.to, found);
     }
+    before = &rules;
     unproved(due_, slice, left);
     if (!left.empty()) refine(left, slice, 0);
   }
+}
+
+const RingProof::Rules& RingProof::rules_on(const Beat& beat) const {
+  return beat.held ? while_held_ : beat.loaded ? while_loaded_ : always_;
+}
+
+/// Looks where the beats end: what has more room than the least met there need not be resolved.
+void RingProof::glimpse() {
+  for (const Beat& beat : formation_.beats()) {
+    const Slice slice = formation_.slice(beat);
+    for (const std::size_t r : rules_on(beat)) {
+      Rule& rule = rules_[r];
+      if (beat.strayed <= rule.lasts) continue;
+      rule.lasts = beat.strayed + reserve(rule, slice.to, look(rule, slice, slice.to, beat.t1));
+    }
+  }
+  for (Rule& rule : rules_) rule.lasts = -1.0;
 }
 
 // With every attachment moved by s at most (and all by anything in common):
@@ -184,6 +204,7 @@ void RingProof::refine(const Rules& rules, const Slice& slice, int depth) {
     return give_up(rules, slice.t0);
   Level& level = levels_[static_cast<std::size_t>(depth)];
   const double middle = 0.5 * (slice.t0 + slice.t1);
+  level.middle.resize(formation_.size());
   formation_.place(*slice.beat, middle, level.middle);
   for (const std::size_t r : rules) look(rules_[r], slice, level.middle, middle);
   Slice halves[2] = {slice, slice};
