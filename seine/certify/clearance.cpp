@@ -88,10 +88,11 @@ class RobotClearance {
   void report(Kind kind, int other, const Episodes& episodes) {
     for (const auto& e : episodes.all()) {
       const double margin = margin_of(kind, e.time);
+      const auto [found, needed] = told_apart(e.value, margin);
       out_.findings.push_back({{kind, e.time, robot_, other, e.value, margin,
-                                format("%s comes within %.4f m of %s at t = %.4f s; %.4f m is required",
-                                       context_.robot_name(robot_).c_str(), e.value,
-                                       name_of_other(kind, other).c_str(), e.time, margin)},
+                                format("%s comes within %s m of %s at t = %.4f s; %s m is required",
+                                       context_.robot_name(robot_).c_str(), found.c_str(),
+                                       name_of_other(kind, other).c_str(), e.time, needed.c_str())},
                                margin - e.value});
     }
   }
