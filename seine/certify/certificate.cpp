@@ -77,7 +77,7 @@ class Proof {
   std::vector<Finding> run(Certificate& certificate) {
     if (with_net_) crossings_ = crossings_of(context_.scenario);
     const Phases phases = phases_of(context_.scenario, crossings_);
-    context_.braking_from = phases.first_catch();
+    context_.braking_from = phases.loaded;
     context_.carries = carries_of(context_.scenario, crossings_);
     scene_.horizon = horizon_of(context_.scenario, plan_, phases);
     chart_robots();

@@ -40,7 +40,7 @@ struct Context {
   const world::Scenario& scenario;
   const world::StaticMap& map;
   const Options& options;
-  double braking_from = std::numeric_limits<double>::infinity();  ///< s, the first catch
+  double braking_from = std::numeric_limits<double>::infinity();  ///< s, something lies in the net
   struct Carry {
     double from, speed;  ///< s, m/s
     int target;

@@ -152,8 +152,7 @@ void UnderneathProof::refine(const Slice& slice, const Placed& from, const Place
   const Vec2 normal = parted.normal;
   // The height is asked only where it can matter.
   const bool by_height = std::isfinite(other_.needed) && distance < closest_.clearance;
-  met(by_height ? std::max(distance, height_.at(slice.beat->loaded, at.net) - other_.needed) : distance,
-      middle);
+  met(by_height ? std::max(distance, height_.at(at.net) - other_.needed) : distance, middle);
   Slice halves[2] = {slice, slice};
   halves[0].t1 = halves[1].t0 = middle;
   halves[0].to = halves[1].from = at.net;

@@ -140,8 +140,8 @@ void NetSession::prepare() {
     if (options_.without.relaxation && !task.goal)
       task.goal = geom::Pose2{last.points.back().x, last.points.back().y, last.end_heading};
     task.fixed_cusps = options_.without.cusps;
-    // What brakes a car after a catch is limited; the whole plan keeps to it.
-    if (!scenario_.targets.empty())
+    // What brakes a car with something in the net is limited; the whole plan keeps to it.
+    if (!scenario_.targets.empty() || scenario_.payload)
       task.model.limits.acceleration = std::min(task.model.limits.acceleration, net::kBraking);
   }
   settings_ = {};
