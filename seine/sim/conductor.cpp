@@ -12,12 +12,13 @@
 namespace seine::sim {
 namespace {
 
-constexpr double kLastAsk = 0.25;  // s before a catch the plan is left alone
-constexpr double kSilence = 0.1;   // s without an answer: a car is taken for broken
-constexpr double kBlind = 1.0;     // s without a fix are too long to go on
-constexpr int kFailures = 3;       // of a controller in a row are too many to go on
-constexpr double kOffWay = 0.5;    // m beside its reference a car is lost
-constexpr double kPaceResponse = 0.2;   // s in which the clock is brought to the pace of the slowest
+constexpr double kLastAsk = 0.25;      // s before a catch the plan is left alone
+constexpr double kSilence = 0.1;       // s without an answer: a car is taken for broken
+constexpr double kBlind = 1.0;         // s without a fix are too long to go on
+constexpr int kFailures = 3;           // of a controller in a row are too many to go on
+constexpr double kOffWay = 0.5;        // m beside its reference a car is lost …
+constexpr double kOffWayLong = 0.15;   // … or this part of its length, where that is more
+constexpr double kPaceResponse = 0.2;  // s in which the clock is brought to the pace of the slowest
 // 1/s: so fast the clock may slow down although a car brakes as hard as it can; that one gets some cm ahead.
 constexpr double kAlways = 0.25;
 constexpr double kAfterCrossing = 0.2;  // s: flights are not known better
@@ -55,7 +56,11 @@ double free_of_time(const world::Scenario& scenario) {
 
 Conductor::Conductor(const world::Scenario& scenario, const traj::TeamTrajectory& plan,
                      const SimulationOptions& options, double start)
-    : scenario_(scenario), options_(options), plan_(plan), clock_(start), free_from_(free_of_time(scenario)) {}
+    : scenario_(scenario),
+      options_(options),
+      plan_(plan),
+      clock_(start),
+      free_from_(free_of_time(scenario)) {}
 
 void Conductor::advance(double duration) {
   const double before = clock_.time();
@@ -113,7 +118,8 @@ std::optional<std::string> Conductor::reason_to_stop(double time, std::span<cons
     }
     const geom::Vec2 reference = clock_.state_on(plan_.robots[k]).pose.position();
     const double off = geom::norm(cars[k].belief().pose.position() - reference);
-    if (off > kOffWay) return name(k) + " is " + centimetres(off) + " off its way";
+    if (off > std::max(kOffWay, kOffWayLong * scenario_.model_of(scenario_.robots[k]).length()))
+      return name(k) + " is " + centimetres(off) + " off its way";
   }
   return std::nullopt;
 }

@@ -9,7 +9,8 @@
 
 namespace seine::sim {
 
-/// How far a car has fallen behind its way, m: along the reference's direction of travel; negative ahead of it.
+/// How far a car has fallen behind its way, m: along the reference's direction of travel; negative ahead of
+/// it.
 double lag_behind(const geom::Pose2& car, const traj::State& reference);
 
 /// The rate that the team's clock should run at so that no car is left behind: 1 while all keep up. A plan

@@ -8,7 +8,8 @@ PlanClock PlanClock::ahead(double duration) const {
   PlanClock later = *this;
   // The rate changes evenly until it is what is wanted, then stays.
   const double asked = rate_ + change_ * duration;
-  later.rate_ = change_ < 0.0 ? std::max(asked, std::min(rate_, wanted_)) : std::min(asked, std::max(rate_, wanted_));
+  later.rate_ =
+      change_ < 0.0 ? std::max(asked, std::min(rate_, wanted_)) : std::min(asked, std::max(rate_, wanted_));
   const double turning = change_ == 0.0 ? duration : (later.rate_ - rate_) / change_;
   later.time_ += 0.5 * (rate_ + later.rate_) * turning + later.rate_ * (duration - turning);
   if (later.rate_ != asked || later.rate_ == wanted_) later.change_ = 0.0;
