@@ -15,7 +15,9 @@ namespace {
 
 using geom::Vec2;
 
-constexpr double kGranted = 1e-3;  // m: more than the certificate grants of all clearances together
+// m: more than the certificate grants of a clearance and, by its tolerance for start and goal poses, at the
+// far end of a long car.
+constexpr double kGranted = 2e-3;
 constexpr double kCells[] = {0.5, 0.3, 0.18};  // car widths
 constexpr int kNone = -1;
 constexpr std::array<std::array<int, 2>, 4> kBeside{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};

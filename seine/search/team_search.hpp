@@ -91,6 +91,7 @@ class TeamSearch {
                    double latest = std::numeric_limits<double>::infinity());
   Placed detour(int robot, const TeamState& state, Placed best, int tries);
   Placed around_the_parked(int robot, const TeamState& state, bool goals);
+  const std::optional<Path>& path_around(int robot, std::vector<std::vector<geom::Vec2>> parked);
   Placed among(int robot, const TeamState& state, Placed best, int patience);
   void overtake(TeamState& state);
   Placed around_the_resting(int robot, const TeamState& state, std::span<const Traffic> traffic);
@@ -120,6 +121,12 @@ class TeamSearch {
   CoordinatorWorkspace workspace_;
   Effort effort_;
   std::optional<std::pair<int, int>> hopeless_;
+  struct Around {
+    int robot;
+    std::vector<std::vector<geom::Vec2>> parked;
+    std::optional<Path> path;  // found around them
+  };
+  std::vector<Around> around_;
   std::vector<int> futile_;  // by robot: searches around the parked that found nothing
   int searches_ = 0;         // effort_.paths may not grow beyond
 };
