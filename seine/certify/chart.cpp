@@ -21,7 +21,6 @@ constexpr double kGrain = 0.03;
 constexpr double kRegular = 0.5;
 // u hardly moves: so little of it, and of a small car's own metres.
 constexpr double kStill = 1e-12, kStillMetres = 1e-9;
-constexpr const char* kBetweenSegments = "between segments";
 constexpr const char* kBetweenProgressPieces = "between progress pieces";
 constexpr const char* kBetweenCurvePieces = "between curve pieces";
 constexpr int kDeepest = 40;
@@ -93,7 +92,8 @@ class Charter {
     for (const auto& piece : segment.curve) tangents_.push_back(longest_tangent(piece));
     const double longest = *std::max_element(tangents_.begin(), tangents_.end());
     const double still = std::min(kStill, kStillMetres * granted_.size / std::max(longest, 1e-300));
-    joint_ = kBetweenSegments;
+    joint_ = kBetweenCurvePieces;
+    enter(segment, begin);
     for (std::size_t j = 0; j < segment.progress.size() && !failed_; ++j) {
       const double clock = begin + segment.piece_duration * static_cast<double>(j);
       chunks_of(segment, j, still, chunks_);
@@ -104,6 +104,24 @@ class Charter {
       }
       joint_ = kBetweenProgressPieces;
     }
+    if (!failed_) leave(segment, begin);
+  }
+
+  /// Where the plan has the car before a segment and after it: at an inner knot of the curve that is the
+  /// piece on the right of it, whichever way u goes from there.
+  void enter(const Segment& segment, double begin) {
+    const Stretch at{traj::drive_at(segment, 0, segment.progress.front()[0]), begin};
+    const Side side = side_of(at, at.sample(0.0, model_.wheelbase));
+    if (last_) joints_.join_segments(*last_, side, begin, stops_, wait_);
+    last_ = side;
+  }
+  void leave(const Segment& segment, double begin) {
+    const std::size_t j = segment.progress.size() - 1;
+    const double u = traj::value_at(segment.progress[j], 1.0);
+    const Stretch at{traj::drive_at(segment, j, u), begin + segment.piece_duration * static_cast<double>(j)};
+    const Side side = side_of(at, at.sample(1.0, model_.wheelbase));
+    joints_.join(*last_, side, at.clock(1.0), kBetweenCurvePieces);
+    last_ = side;
   }
 
   void chart_chunk(const Segment& segment, std::size_t j, const Chunk& chunk, double clock) {
@@ -121,7 +139,7 @@ class Charter {
       if (backwards_ == 0.0) backwards_at_ = stretch.clock(from.w);
       backwards_ += chunk.backwards * tangent;
     }
-    join(stretch, from);
+    joints_.join(*last_, side_of(stretch, from), stretch.clock(from.w), joint_);
     if (chunk.knot_near >= 0.0) chart_both_sides(segment, j, chunk, clock);
     divide(stretch, from, to, 0);
     last_ = side_of(stretch, to);
@@ -141,13 +159,6 @@ class Charter {
   static Side side_of(const Stretch& stretch, const Sample& at) {
     const double gear = stretch.drive.gear;
     return {at.frame, gear * at.value[pace], gear * at.value[curvature]};
-  }
-
-  void join(const Stretch& stretch, const Sample& from) {
-    const Side next = side_of(stretch, from);
-    const double time = stretch.clock(from.w);
-    if (last_ && joint_ == kBetweenSegments) joints_.join_segments(*last_, next, time, stops_, wait_);
-    if (last_ && joint_ != kBetweenSegments) joints_.join(*last_, next, time, joint_);
   }
 
   /// Where u hardly moves, but may pass a knot as often as a quintic can: each time is a joint, and the
@@ -240,7 +251,7 @@ class Charter {
   double least_tangent_ = 0.0;                   // m, on the chunk at hand
   int direction_ = 1;                            // of the chunk at hand
   std::optional<Side> last_;                     // where the chunk before ended
-  const char* joint_ = kBetweenSegments;         // before the next chunk
+  const char* joint_ = kBetweenCurvePieces;      // before the next chunk
   bool stops_ = false;                           // whether the car rests before this segment …
   double wait_ = 0.0;                            // s, … for so long
   int gear_ = 0;                                 // of the segment before

@@ -265,6 +265,23 @@ TEST(Siblings, ManySmallStepsBack) {
   });
 }
 
+TEST(Siblings, WaitsOrArrivesBeyondAKnot) {
+  // u stands at a knot, which belongs to the piece on its right, metres away, while it comes from or goes to
+  // the left.
+  expect_refused(13500, [](Rng& rng, Case& c) {
+    const double l = c.length, far = between(rng, 1e-3, 10.0) * l;
+    Segment segment;
+    segment.curve = {{Quintic{0.0, l}, Quintic{}}, {Quintic{l, l}, Quintic{far}}};
+    segment.piece_duration = 100.0;
+    segment.progress = {hermite({0, 0, 0}, {1, 0, 0})};
+    if (rng.below(2) == 0) {  // from there, backwards by next to nothing
+      segment.wait = 1.0;
+      segment.progress = {{1.0, 0.0, -1e-9}};
+    }
+    c.way.segments = {segment};
+  });
+}
+
 TEST(Siblings, SpeedAtTheEnds) {
   // A slow car that starts and arrives at its full speed.
   expect_refused(14000, [](Rng& rng, Case& c) {
