@@ -155,7 +155,8 @@ std::vector<Sight> track(const traj::RobotTrajectory& way, const Look& look) {
       still.speed = still.rate = still.acceleration = still.lateral = still.curvature_rate = 0.0;
       still.t = begin, still.jump = !sights.empty();
       sights.push_back(still);
-      still.t = begin + segment.wait, still.jump = false, still.waits = true;
+      still.t = begin + segment.wait, still.jump = false;
+      still.curvature = sight(segment, 0, 0.0).curvature;  // the wheel turns while the car rests
       sights.push_back(still);
       begin += segment.wait;
     }

@@ -22,7 +22,6 @@ struct Sight {
   double curvature_rate = 0.0;  ///< 1/(m s)
   double tangent = 0.0;         ///< m, |p'|
   bool jump = false;            ///< the same instant as the sight before it, on the other side of a joint
-  bool waits = false;           ///< the sight before it is the beginning of a rest that ends here
 };
 
 /// Where the documented formula has the car `w` into progress piece `j`.

@@ -42,6 +42,16 @@ std::vector<double> clock(double last, double hertz) {
 
 }  // namespace
 
+Scale scale_of(const vehicle::Model& model, const Grants& grants) {
+  double back = 0.0, front = 0.0;
+  for (const geom::Vec2 p : model.footprint) back = std::min(back, p.x), front = std::max(front, p.x);
+  const double length = front - back;
+  Scale scale{std::min(1.0, length / grants.short_car),
+              std::min({1.0, model.limits.speed, std::sqrt(model.limits.acceleration * length)})};
+  if (model.limits.reverse_speed > 0.0) scale.pace = std::min(scale.pace, model.limits.reverse_speed);
+  return scale;
+}
+
 void Ledger::offer(const char* what, double time, double value, double limit, double granted, int other) {
   double ratio = (value - limit) / granted;
   if (std::isnan(ratio)) ratio = std::numeric_limits<double>::infinity();

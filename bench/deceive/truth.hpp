@@ -10,28 +10,34 @@
 // (shapes.hpp). Of Seine only plain data are used.
 namespace seine::deceive {
 
-/// What the look forgives: the stated tolerances of docs/certificate.md, each with a little room, since the
-/// look is to find what is clearly wrong. Lengths count in car lengths, speeds in the car's fastest.
+/// What the look forgives: the stated tolerances (docs/certificate.md#tolerances) with a twentieth more, for
+/// what the look finds is real but for rounding. Lengths hold for cars from `short_car` on and shrink with
+/// shorter ones; speeds are relative to a speed of the car.
 struct Grants {
-  double limit = 3e-6;            ///< of a limit, at an instant
-  double limit_floor = 3e-9;      ///< in units of the quantity
-  double place = 1.05e-4;         ///< m, start and goal …
-  double place_lengths = 1e-3;    ///< … but no more than this many lengths
-  double heading = 1.05e-4;       ///< rad, start and goal
-  double clearance = 2.1e-4;      ///< m below the margin …
-  double clearance_lengths = 1e-3;  ///< … but no more than this many lengths
-  double rest = 1.05e-3;            ///< m/s at rest, of the start speed, and against the gear …
-  double rest_speeds = 1e-2;        ///< … but no more than this share of the fastest
-  // Granted once a plan, by all joints together: beyond what the limit allows in any window of time (or of
-  // distance).
-  double slip_lengths = 2e-3;     ///< jumps of the position, and distance driven faster than the limit
-  double turn = 3e-3;             ///< rad, turned more than the curvature allows
-  double surge_speeds = 1e-2;     ///< of the fastest, speed gained beyond the acceleration allowed
-  double steer = 1e-2;            ///< rad, turned by the front wheel beyond its rate
-  double backing_lengths = 1e-2;  ///< distance driven against the gear
+  double short_car = 0.25;      ///< m
+  double limit = 2e-6;          ///< of a limit, at an instant
+  double limit_floor = 2e-9;    ///< in units of the quantity
+  double place = 1.05e-4;       ///< m, start and goal
+  double heading = 1.05e-4;     ///< rad, start and goal
+  double clearance = 2.1e-4;    ///< m below the margin
+  double rest = 1.05e-3;        ///< relative: at rest, of the start speed, and against the gear
+  double slip = 1.05e-5;        ///< m, all jumps of the position together
+  double turn = 1.05e-4;        ///< rad, all jumps of the heading together
+  double surge = 1.05e-3;       ///< relative, all jumps of the speed together
+  double steer = 1.05e-3;       ///< of the largest curvature, all jumps of the curvature together
+  double backing = 1.05e-4;     ///< m, driven against the gear in all
+  /// What a whole window (of time, or of distance) may exceed its limits by, in what its jumps may.
+  double window = 2.0;
 };
 
-/// Something that is truly wrong with a plan.
+/// The units of one car.
+struct Scale {
+  double size = 1.0;  ///< of lengths: at most 1
+  double pace = 1.0;  ///< m/s: least of 1 m/s, its speed limits and √(a_max · length)
+};
+Scale scale_of(const vehicle::Model& model, const Grants& grants);
+
+/// Something about a plan, and whether it is truly wrong.
 struct Fault {
   const char* what = "";  ///< of the messages of the look: one address each
   int robot = -1, other = -1;

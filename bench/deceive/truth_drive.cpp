@@ -33,13 +33,13 @@ class DriveLook {
   DriveLook(const vehicle::Model& model, const Grants& grants, Ledger& ledger)
       : limits_(model.limits),
         wheelbase_(model.wheelbase),
-        length_(model.length()),
+        scale_(scale_of(model, grants)),
         fastest_(std::max(model.limits.speed, model.limits.reverse_speed)),
         bend_(std::tan(model.limits.steering) / model.wheelbase),
         grants_(grants),
         ledger_(ledger) {}
 
-  double rest() const { return std::min(grants_.rest, grants_.rest_speeds * fastest_); }
+  double rest() const { return std::max(1e-9, grants_.rest * scale_.pace); }
 
   void run(const std::vector<Sight>& track) {
     heading_ = track.empty() ? 0.0 : track.front().heading;
@@ -67,14 +67,21 @@ class DriveLook {
     limit("steering rate (rad/s)", s.t, std::abs(wheelbase_ * s.curvature_rate / (1.0 + z * z)),
           limits_.steering_rate);
     ledger_.offer("speed against the gear (m/s)", s.t, -s.rate, 0.0, rest());
-    ledger_.offer("no tangent: 1/|p'| (1/m)", s.t, 1.0 / s.tangent, 0.0, 1e9 / length_);
+    ledger_.offer("no tangent: 1/|p'| (1/m)", s.t, 1.0 / s.tangent, 0.0, 1e9 / scale_.size);
+  }
+
+  void jumped(const Sight& a, const Sight& b, double step) {
+    slipped_ += step;
+    swung_ += std::abs(geom::wrap_angle(b.heading - a.heading));
+    ledger_.offer("jumps of the position in all (m)", b.t, slipped_, 0.0, grants_.slip * scale_.size + 1e-12);
+    ledger_.offer("jumps of the heading in all (rad)", b.t, swung_, 0.0, grants_.turn);
   }
 
   void between(const Sight& a, const Sight& b) {
     const double dt = b.t - a.t, step = std::hypot(b.x - a.x, b.y - a.y);
     path_ += step;
     heading_ += geom::wrap_angle(b.heading - a.heading);
-    if (b.jump) slipped_ += step;
+    if (b.jump) jumped(a, b, step);
     if (a.rate < 0.0 && b.rate < 0.0) backed_ += step;
     const double fast = std::max(std::abs(a.speed), std::abs(b.speed));
     const double slow = std::min(std::abs(a.speed), std::abs(b.speed));
@@ -86,16 +93,15 @@ class DriveLook {
         (swerves ? std::min(bends, limits_.lateral_acceleration / slow * dt) : bends) * kWindowRoom;
     steer(a, b, dt, fast);
     const double t = b.t;
-    ledger_.offer("jumps of the position in all (m)", t, slipped_, 0.0, grants_.slip_lengths * length_);
-    ledger_.offer("driven against the gear in all (m)", t, backed_, 0.0, grants_.backing_lengths * length_);
+    ledger_.offer("driven against the gear in all (m)", t, backed_, 0.0, grants_.backing * scale_.size);
     ledger_.offer("driven beyond the speed limit (m)", t, far_.next(path_, drive_allowed_), 0.0,
-                  grants_.slip_lengths * length_);
+                  grants_.window * grants_.slip * scale_.size + 1e-9);
     ledger_.offer("turned beyond the curvature or the lateral limit (rad)", t,
-                  turn_.next(heading_, turn_allowed_), 0.0, grants_.turn);
+                  turn_.next(heading_, turn_allowed_), 0.0, grants_.window * grants_.turn);
     ledger_.offer("speed gained beyond the acceleration (m/s)", t, surge_.next(b.speed, surge_allowed_), 0.0,
-                  grants_.surge_speeds * fastest_);
+                  grants_.window * grants_.surge * scale_.pace + 1e-9);
     ledger_.offer("wheel turned beyond its rate (rad)", t, wheel_.next(steered_, steer_allowed_), 0.0,
-                  grants_.steer);
+                  grants_.window * grants_.steer * bend_ * wheelbase_);
   }
 
   /// A car at rest may turn its wheel as fast as it can; without a limit of the rate, in no time.
@@ -111,18 +117,20 @@ class DriveLook {
   }
 
   const vehicle::Limits& limits_;
-  double wheelbase_, length_, fastest_, bend_;
+  double wheelbase_;
+  Scale scale_;
+  double fastest_, bend_;
   const Grants& grants_;
   Ledger& ledger_;
-  double path_ = 0.0, heading_ = 0.0, slipped_ = 0.0, backed_ = 0.0, steered_ = 0.0;
+  double path_ = 0.0, heading_ = 0.0, slipped_ = 0.0, swung_ = 0.0, backed_ = 0.0, steered_ = 0.0;
   double surge_allowed_ = 0.0, drive_allowed_ = 0.0, turn_allowed_ = 0.0, steer_allowed_ = 0.0;
   Window far_, turn_, surge_, wheel_;
 };
 
 void look_at_end(const char* place, const char* turn, double t, const geom::Pose2& is,
-                 const geom::Pose2& wanted, double length, const Grants& grants, Ledger& ledger) {
+                 const geom::Pose2& wanted, double size, const Grants& grants, Ledger& ledger) {
   ledger.offer(place, t, std::hypot(is.x - wanted.x, is.y - wanted.y), 0.0,
-               std::min(grants.place, grants.place_lengths * length));
+               grants.place * size);
   ledger.offer(turn, t, std::abs(geom::wrap_angle(is.heading - wanted.heading)), 0.0, grants.heading);
 }
 
@@ -154,13 +162,14 @@ void look_at_drive(const world::Scenario& scenario, int robot, const traj::Robot
   const world::Robot& asked = scenario.robots[static_cast<std::size_t>(robot)];
   const vehicle::Model& model = scenario.model_of(asked);
   DriveLook drive(model, grants, ledger);
+  const double size = scale_of(model, grants).size;
   const geom::Pose2 first = pose_at(way, 0.0);
   look_at_end("distance from the start (m)", "angle to the start (rad)", 0.0, first, asked.start,
-              model.length(), grants, ledger);
+              size, grants, ledger);
   const double end = track.empty() ? 0.0 : track.back().t;
   if (asked.goal)
     look_at_end("distance from the goal (m)", "angle to the goal (rad)", end, pose_at(way, end + 1.0),
-                *asked.goal, model.length(), grants, ledger);
+                *asked.goal, size, grants, ledger);
   const double speed = track.empty() ? 0.0 : track.front().speed;
   // A start speed a little over the limit means the limit (docs/certificate.md).
   const double most = asked.start_speed < 0.0 ? model.limits.reverse_speed : model.limits.speed;

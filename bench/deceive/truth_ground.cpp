@@ -99,8 +99,11 @@ double distance_to_bounds(const geom::Box& bounds, const Polygon& car) {
   return least;
 }
 
-double granted_clearance(const Grants& grants, double length) {
-  return std::min(grants.clearance, grants.clearance_lengths * length);
+double granted_clearance(const Grants& grants, const world::Scenario& scenario) {
+  double size = 1.0;
+  for (const world::Robot& robot : scenario.robots)
+    size = std::min(size, scale_of(scenario.model_of(robot), grants).size);
+  return grants.clearance * size;
 }
 
 }  // namespace
@@ -110,7 +113,7 @@ void look_at_ground(const world::Scenario& scenario, int robot, const traj::Robo
   const vehicle::Model& model = scenario.model_of(scenario.robots[static_cast<std::size_t>(robot)]);
   const std::vector<Body> bodies = bodies_of(scenario);
   const double reach = reach_of(model.footprint), margin = scenario.margins.obstacle;
-  const double granted = granted_clearance(grants, model.length()), cap = margin + granted;
+  const double granted = granted_clearance(grants, scenario), cap = margin + granted;
   bool left = !scenario.margins.leaving;
   geom::Pose2 before{kInfinity, 0.0, 0.0};
   double still = kInfinity;
@@ -142,7 +145,7 @@ void look_at_pair(const world::Scenario& scenario, int a, int b, const traj::Tea
   const vehicle::Model &first = scenario.model_of(scenario.robots[i]),
                        &second = scenario.model_of(scenario.robots[j]);
   const double margin = scenario.margins.robot;
-  const double granted = granted_clearance(grants, std::min(first.length(), second.length()));
+  const double granted = granted_clearance(grants, scenario);
   const double near = reach_of(first.footprint) + reach_of(second.footprint) + margin + granted;
   for (const double t : times) {
     const geom::Pose2 p = pose_at(plan.robots[i], t), q = pose_at(plan.robots[j], t);
@@ -153,16 +156,11 @@ void look_at_pair(const world::Scenario& scenario, int a, int b, const traj::Tea
 }
 
 void look_at_net(const world::Scenario& scenario, const traj::TeamTrajectory& plan,
-                 const std::vector<double>& times, const Grants& grants, Ledger& ledger) {
+                 const std::vector<double>& times, const Grants&, Ledger& ledger) {
   const net::Net& net = *scenario.net;
   constexpr double kInside = 0.05;  // m, inside the lines of the next ring edges
   const std::size_t n = net.rest.size();
-  double side = 0.0;
-  for (std::size_t k = 0; k < n; ++k) {
-    const Vec2 d = net.rest[(k + 1) % n] - net.rest[k];
-    side = std::max(side, std::hypot(d.x, d.y));
-  }
-  const double granted = std::min(grants.clearance, grants.clearance_lengths * side);
+  const double granted = 1.05e-4;  // m
   Polygon ring(n);
   for (const double t : times) {
     for (std::size_t k = 0; k < n; ++k)
