@@ -60,6 +60,11 @@ Formation::Formation(const net::Net& net, std::span<const Mover* const> robots, 
     : robots_(robots.begin(), robots.end()) {
   for (const net::Attachment& attachment : net.attachments) held_at_.push_back(attachment.at);
   const std::vector<double> changes = changes_of(phases);
+  std::size_t expected = changes.size();  // beats, unless cells end together
+  for (const Mover* robot : robots_) expected += robot->cells.size();
+  expected = std::min(expected, kMostBeats);
+  beats_.reserve(expected), cells_.reserve(expected * size()), bends_.reserve(expected * size());
+  from_.reserve(expected * size()), to_.reserve(expected * size());
   std::vector<std::size_t> at(size(), 0);
   auto change = changes.begin();
   for (double t = 0.0; t < horizon || beats_.empty();) {

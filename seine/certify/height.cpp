@@ -70,19 +70,35 @@ double Height::loaded_depth_squared() const {
   return bound;
 }
 
+// Every attachment moved by s, a squared distance q decreases by 4 s √q at most, and D² grows by that times
+// the share.
+double Height::reserve(const Slice& slice, double least, double wanted) const {
+  double longest = 0.0;
+  for (const Pair& pair : pairs_)
+    longest = std::max(longest, geom::squared_norm(slice.to[pair.i] - slice.to[pair.j]));
+  const double depth = net_.rim() - least, allowed = net_.rim() - wanted;
+  return (allowed * allowed - depth * depth) / (4.0 * share_ * std::sqrt(longest));
+}
+
 DragProof::DragProof(Context& context, const Formation& formation, Height& height)
     : context_(context),
       formation_(formation),
       height_(height),
       clearance_(context.scenario.net->clearance),
-      levels_(static_cast<std::size_t>(kDeepest), std::vector<Vec2>(formation.size())) {}
+      levels_(static_cast<std::size_t>(kDeepest)) {}
 
 void DragProof::run() {
   glimpse();
   for (const Beat& beat : formation_.beats()) {
     worst_ = 0.0;
+    if (beat.loaded && beat.strayed_within <= lasts_) continue;
     const Slice slice = formation_.slice(beat);
-    if (!keeps(slice)) refine(slice, 0);
+    const double least = height_.least(slice);
+    if (!(least - clearance_ >= wanted())) {
+      refine(slice, 0);
+    } else if (beat.loaded) {
+      lasts_ = beat.strayed + height_.reserve(slice, least, clearance_ + wanted());
+    }
   }
 }
 
@@ -114,11 +130,13 @@ void DragProof::look(const Slice& slice, std::span<const Vec2> at, double time) 
   }
 }
 
+double DragProof::wanted() const {
+  return worst_ < 0.0 ? worst_ - kHeightResolution
+                      : std::max(-tolerance::kNetProved, closest_.clearance - kHeightResolution);
+}
+
 bool DragProof::keeps(const Slice& slice) {
-  const double wanted = worst_ < 0.0
-                            ? worst_ - kHeightResolution
-                            : std::max(-tolerance::kNetProved, closest_.clearance - kHeightResolution);
-  return height_.least(slice) - clearance_ >= wanted;
+  return height_.least(slice) - clearance_ >= wanted();
 }
 
 void DragProof::refine(const Slice& slice, int depth) {
@@ -131,6 +149,7 @@ void DragProof::refine(const Slice& slice, int depth) {
     return;
   }
   std::vector<Vec2>& at = levels_[static_cast<std::size_t>(depth)];
+  at.resize(formation_.size());
   const double middle = 0.5 * (slice.t0 + slice.t1);
   formation_.place(*slice.beat, middle, at);
   look(slice, at, middle);

@@ -22,6 +22,9 @@ class Height {
   double at(bool loaded, std::span<const geom::Vec2> attachments);
   /// A lower bound on the slice, m.
   double least(const Slice& slice);
+  /// How far the shape may change from the end of a loaded slice, on which `least` was found, until the
+  /// height can fall to `wanted`, m; negative when it may have already.
+  double reserve(const Slice& slice, double least, double wanted) const;
 
  private:
   struct Pair {
@@ -60,6 +63,7 @@ class DragProof {
 
   void glimpse();
   void look(const Slice& slice, std::span<const geom::Vec2> at, double time);
+  double wanted() const;
   bool keeps(const Slice& slice);
   void refine(const Slice& slice, int depth);
 
@@ -68,6 +72,7 @@ class DragProof {
   Height& height_;
   double clearance_;
   double worst_ = 0.0;  // room in the beat at hand; 0 when it does not drag
+  double lasts_ = -1.0;  // m: loaded, up to this Beat::strayed_within the height need not be looked at
   Closest closest_;
   Episodes episodes_;
   std::vector<Finding> undecided_;

@@ -31,7 +31,6 @@ RingProof::RingProof(Context& context, const Formation& formation)
   add_holding();
   while_held_ = while_loaded_;
   add(while_held_, {.sort = open, .limit = net::kHeldOpening, .episodes = {}});
-  for (Level& level : levels_) level.middle.resize(formation.size());
 }
 
 void RingProof::add(Rules& list, Rule rule) {
@@ -71,11 +70,12 @@ void RingProof::add_holding() {
 
 void RingProof::run() {
   check_start();
+  glimpse();
   Rules left;
   for (const Beat& beat : formation_.beats()) {
     const Slice slice = formation_.slice(beat);
     due_.clear();
-    for (const std::size_t r : beat.held ? while_held_ : beat.loaded ? while_loaded_ : always_) {
+    for (const std::size_t r : rules_on(beat)) {
       Rule& rule = rules_[r];
       if (beat.strayed_within <= rule.lasts) continue;
       due_.push_back(r);
@@ -87,6 +87,23 @@ void RingProof::run() {
     unproved(due_, slice, left);
     if (!left.empty()) refine(left, slice, 0);
   }
+}
+
+const RingProof::Rules& RingProof::rules_on(const Beat& beat) const {
+  return beat.held ? while_held_ : beat.loaded ? while_loaded_ : always_;
+}
+
+/// Looks where the beats end: what has more room than the least met there need not be resolved.
+void RingProof::glimpse() {
+  for (const Beat& beat : formation_.beats()) {
+    const Slice slice = formation_.slice(beat);
+    for (const std::size_t r : rules_on(beat)) {
+      Rule& rule = rules_[r];
+      if (beat.strayed <= rule.lasts) continue;
+      rule.lasts = beat.strayed + reserve(rule, slice.to, look(rule, slice, slice.to, beat.t1));
+    }
+  }
+  for (Rule& rule : rules_) rule.lasts = -1.0;
 }
 
 // With every attachment moved by s at most (and all by anything in common):
@@ -184,6 +201,7 @@ void RingProof::refine(const Rules& rules, const Slice& slice, int depth) {
     return give_up(rules, slice.t0);
   Level& level = levels_[static_cast<std::size_t>(depth)];
   const double middle = 0.5 * (slice.t0 + slice.t1);
+  level.middle.resize(formation_.size());
   formation_.place(*slice.beat, middle, level.middle);
   for (const std::size_t r : rules) look(rules_[r], slice, level.middle, middle);
   Slice halves[2] = {slice, slice};

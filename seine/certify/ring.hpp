@@ -50,6 +50,8 @@ class RingProof {
   void add_pairs_and_corners();
   void add_holding();
   void check_start();
+  void glimpse();
+  const Rules& rules_on(const Beat& beat) const;
   double room(const Rule& rule, std::span<const geom::Vec2> at) const;
   /// Whether the room is at least `wanted` throughout the slice.
   bool keeps(const Rule& rule, const Slice& slice, double wanted) const;

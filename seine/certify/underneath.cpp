@@ -27,7 +27,6 @@ UnderneathProof::UnderneathProof(Context& context, const Formation& formation, H
       lowest_(lowest),
       clearance_(context.scenario.net->clearance),
       levels_(static_cast<std::size_t>(kDeepest) + 2) {
-  for (Placed& placed : levels_) placed.net.resize(formation.size());
   closest_.clearance = kNetSearch;
 }
 
