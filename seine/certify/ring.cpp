@@ -72,18 +72,21 @@ void RingProof::run() {
   check_start();
   glimpse();
   Rules left;
+  const Rules* before = nullptr;  // the rules of the last beat, which were looked at where this one begins
   for (const Beat& beat : formation_.beats()) {
     const Slice slice = formation_.slice(beat);
     due_.clear();
-    for (const std::size_t r : rules_on(beat)) {
+    const Rules& rules = rules_on(beat);
+    for (const std::size_t r : rules) {
       Rule& rule = rules_[r];
       if (beat.strayed_within <= rule.lasts) continue;
       due_.push_back(r);
       rule.worst = 0.0;
-      look(rule, slice, slice.from, beat.t0);
+      if (before != &rules) look(rule, slice, slice.from, beat.t0);
       const double found = look(rule, slice, slice.to, beat.t1);
       rule.lasts = beat.strayed + reserve(rule, slice.to, found);
     }
+    before = &rules;
     unproved(due_, slice, left);
     if (!left.empty()) refine(left, slice, 0);
   }
