@@ -95,7 +95,8 @@ double distance_to_cells(const geom::OccupancyGrid& map, const Polygon& car, con
 double distance_to_bounds(const geom::Box& bounds, const Polygon& car) {
   double least = kInfinity;
   for (const Vec2 p : car)
-    least = std::min({least, p.x - bounds.low.x, p.y - bounds.low.y, bounds.high.x - p.x, bounds.high.y - p.y});
+    least =
+        std::min({least, p.x - bounds.low.x, p.y - bounds.low.y, bounds.high.x - p.x, bounds.high.y - p.y});
   return least;
 }
 
@@ -134,7 +135,8 @@ void look_at_ground(const world::Scenario& scenario, int robot, const traj::Robo
     left = left || still >= margin;
     const double asked = left ? margin : std::min(margin, *scenario.margins.leaving);
     ledger.offer("overlap of the margin with what stands (m)", t, asked - std::min(still, cap), 0.0, granted);
-    ledger.offer("overlap of the margin with what moves (m)", t, margin - std::min(moving, cap), 0.0, granted);
+    ledger.offer("overlap of the margin with what moves (m)", t, margin - std::min(moving, cap), 0.0,
+                 granted);
     before = pose;
   }
 }
@@ -174,8 +176,7 @@ void look_at_net(const world::Scenario& scenario, const traj::TeamTrajectory& pl
       }
       for (std::size_t l = k + 1; l < n; ++l) {
         const Vec2 rest = net.rest[l] - net.rest[k];
-        ledger.offer("two attachments too far apart (m)", t,
-                     std::hypot(ring[l].x - p.x, ring[l].y - p.y),
+        ledger.offer("two attachments too far apart (m)", t, std::hypot(ring[l].x - p.x, ring[l].y - p.y),
                      net.stretch * std::hypot(rest.x, rest.y), granted);
       }
     }

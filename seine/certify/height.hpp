@@ -71,7 +71,7 @@ class DragProof {
   const Formation& formation_;
   Height& height_;
   double clearance_;
-  double worst_ = 0.0;  // room in the beat at hand; 0 when it does not drag
+  double worst_ = 0.0;   // room in the beat at hand; 0 when it does not drag
   double lasts_ = -1.0;  // m: loaded, up to this Beat::strayed_within the height need not be looked at
   Closest closest_;
   Episodes episodes_;
