@@ -67,23 +67,28 @@ double distance_to(const Body& body, const Polygon& car, const geom::Pose2& pose
   return polygon_distance(car, moves ? placed(body.polygon, frame) : body.polygon);
 }
 
-/// To the nearest blocked cell, cell by cell.
+/// What lies outside the picture is unknown, and so an obstacle.
+bool solid(const geom::OccupancyGrid& map, int x, int y) {
+  if (x < 0 || y < 0 || x >= map.width || y >= map.height) return true;
+  return map.occupied[static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width) +
+                      static_cast<std::size_t>(x)] != 0;
+}
+
+/// To the nearest solid cell, cell by cell.
 double distance_to_cells(const geom::OccupancyGrid& map, const Polygon& car, const geom::Pose2& pose,
                          double reach, double cap) {
   const double c = std::cos(map.origin.heading), s = std::sin(map.origin.heading);
   const double dx = pose.x - map.origin.x, dy = pose.y - map.origin.y;
   const double column = (c * dx + s * dy) / map.resolution, row = (c * dy - s * dx) / map.resolution;
   const double around = (reach + cap) / map.resolution + 1.0;
-  const int first = std::max(0, static_cast<int>(std::floor(column - around)));
-  const int last = std::min(map.width - 1, static_cast<int>(std::ceil(column + around)));
-  const int bottom = std::max(0, static_cast<int>(std::floor(row - around)));
-  const int top = std::min(map.height - 1, static_cast<int>(std::ceil(row + around)));
+  const auto first = static_cast<int>(std::floor(column - around)),
+             last = static_cast<int>(std::ceil(column + around)),
+             bottom = static_cast<int>(std::floor(row - around)),
+             top = static_cast<int>(std::ceil(row + around));
   double least = kInfinity;
   for (int y = bottom; y <= top; ++y) {
     for (int x = first; x <= last; ++x) {
-      if (map.occupied[static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width) +
-                       static_cast<std::size_t>(x)] == 0)
-        continue;
+      if (!solid(map, x, y)) continue;
       const double r = map.resolution, l = x * r, b = y * r;
       const Vec2 cell[4] = {{l, b}, {l + r, b}, {l + r, b + r}, {l, b + r}};
       least = std::min(least, convex_distance(car, placed(cell, map.origin)));
