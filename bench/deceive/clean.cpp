@@ -32,9 +32,10 @@ class CleanCampaign {
         for (std::uint64_t seed = next_++; seed < end_; seed = next_++) one(seed);
       });
     for (std::thread& worker : crew) worker.join();
-    std::printf("%ld certified plans (%ld tasks without one), %ld refused after writing and reading, %ld of "
-                "them clean; %ld certified ones wrong by the look\n",
-                counts_.plans, counts_.none, counts_.refused, counts_.refused_clean, counts_.unsound);
+    std::printf(
+        "%ld certified plans (%ld tasks without one), %ld refused after writing and reading, %ld of "
+        "them clean; %ld certified ones wrong by the look\n",
+        counts_.plans, counts_.none, counts_.refused, counts_.refused_clean, counts_.unsound);
     return counts_.refused_clean;
   }
 

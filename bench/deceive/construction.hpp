@@ -55,8 +55,12 @@ void add_world_constructions(std::vector<Construction>& all);    ///< small cars
 vehicle::Model car(double length);
 /// The quintic from one value to another, at rest to the second derivative at both ends.
 traj::Quintic ramp(double from, double to);
-inline traj::Quintic constant(double value) { return {value, 0.0, 0.0, 0.0, 0.0, 0.0}; }
-inline traj::Quintic linear(double value, double slope) { return {value, slope, 0.0, 0.0, 0.0, 0.0}; }
+inline traj::Quintic constant(double value) {
+  return {value, 0.0, 0.0, 0.0, 0.0, 0.0};
+}
+inline traj::Quintic linear(double value, double slope) {
+  return {value, slope, 0.0, 0.0, 0.0, 0.0};
+}
 /// c(w) along a direction from a place, as a curve piece.
 std::array<traj::Quintic, 2> along(geom::Vec2 from, geom::Vec2 direction, const traj::Quintic& c);
 /// Starts and goals where the plan really begins and ends; wide bounds around everything.

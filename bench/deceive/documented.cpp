@@ -14,8 +14,7 @@ double polynomial(const Quintic& c, double w, int order) {
   static constexpr double kFalling[4][6] = {
       {1, 1, 1, 1, 1, 1}, {0, 1, 2, 3, 4, 5}, {0, 0, 2, 6, 12, 20}, {0, 0, 0, 6, 24, 60}};
   double sum = 0.0;
-  for (int k = 5; k >= order; --k)
-    sum = sum * w + kFalling[order][k] * c[static_cast<std::size_t>(k)];
+  for (int k = 5; k >= order; --k) sum = sum * w + kFalling[order][k] * c[static_cast<std::size_t>(k)];
   return sum;
 }
 
@@ -36,8 +35,7 @@ class PieceTrack {
 
   void run(const Look& look) {
     double range = 0.0;
-    for (std::size_t k = 1; k < 6; ++k)
-      range += static_cast<double>(k) * std::abs(segment_.progress[j_][k]);
+    for (std::size_t k = 1; k < 6; ++k) range += static_cast<double>(k) * std::abs(segment_.progress[j_][k]);
     const double count =
         std::min({std::ceil(std::max({look.hertz * segment_.piece_duration, look.per_piece * range,
                                       static_cast<double>(look.least)})),

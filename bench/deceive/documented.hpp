@@ -11,14 +11,14 @@ namespace seine::deceive {
 
 /// One instant of one car.
 struct Sight {
-  double t = 0.0;             ///< s, common clock
-  double x = 0.0, y = 0.0;    ///< m
-  double heading = 0.0;       ///< rad, in (−π, π]
-  double speed = 0.0;         ///< m/s, signed: negative backwards
-  double rate = 0.0;          ///< m/s, |p'| u̇: negative against the gear
-  double acceleration = 0.0;  ///< m/s²
-  double lateral = 0.0;       ///< m/s²
-  double curvature = 0.0;     ///< 1/m
+  double t = 0.0;               ///< s, common clock
+  double x = 0.0, y = 0.0;      ///< m
+  double heading = 0.0;         ///< rad, in (−π, π]
+  double speed = 0.0;           ///< m/s, signed: negative backwards
+  double rate = 0.0;            ///< m/s, |p'| u̇: negative against the gear
+  double acceleration = 0.0;    ///< m/s²
+  double lateral = 0.0;         ///< m/s²
+  double curvature = 0.0;       ///< 1/m
   double curvature_rate = 0.0;  ///< 1/(m s)
   double tangent = 0.0;         ///< m, |p'|
   bool jump = false;            ///< the same instant as the sight before it, on the other side of a joint

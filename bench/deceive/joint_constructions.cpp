@@ -121,8 +121,7 @@ Case jumping_curve(Genes genes) {
   segment.progress = {ramp(0.0, count)};
   segment.piece_duration = genes.log(1.0, 30.0) * std::max(path / model.limits.speed, std::sqrt(path));
   if (genes.coin()) {  // steady, with a ramp at either end
-    segment.progress = {{0.0, 0.0, 0.0, 0.1 * count, -0.05 * count, 0.0},
-                        linear(0.05 * count, 0.1 * count)};
+    segment.progress = {{0.0, 0.0, 0.0, 0.1 * count, -0.05 * count, 0.0}, linear(0.05 * count, 0.1 * count)};
     for (double u = 0.15; u < 0.94; u += 0.1) segment.progress.push_back(linear(u * count, 0.1 * count));
     segment.progress.push_back({0.95 * count, 0.1 * count, 0.0, -0.1 * count, 0.05 * count, 0.0});
     segment.progress.back()[0] = segment.progress[segment.progress.size() - 2][0] + 0.1 * count;
@@ -169,8 +168,10 @@ Case rolling_segments(Genes genes) {
 }  // namespace
 
 void add_joint_constructions(std::vector<Construction>& all) {
-  for (const Construction& c : {Construction{"standing", standing}, {"jumping_progress", jumping_progress},
-                                {"jumping_curve", jumping_curve}, {"rolling_segments", rolling_segments}})
+  for (const Construction& c : {Construction{"standing", standing},
+                                {"jumping_progress", jumping_progress},
+                                {"jumping_curve", jumping_curve},
+                                {"rolling_segments", rolling_segments}})
     all.push_back(c);
 }
 

@@ -19,8 +19,8 @@
 namespace seine::deceive {
 namespace {
 
-constexpr int kSteps = 60;      // of a search from genes …
-constexpr int kMutants = 150;   // … and from a certified plan
+constexpr int kSteps = 60;     // of a search from genes …
+constexpr int kMutants = 150;  // … and from a certified plan
 constexpr int kFilesPerName = 4;
 
 struct Tally {
@@ -130,11 +130,12 @@ int look_at_files(const std::string& scenario, const std::string& plan) {
 }
 
 int complain() {
-  std::fprintf(stderr,
-               "usage: seine_deceive [MINUTES] [--seed FIRST] [--only NAME] [--threads N] [--out FOLDER]\n"
-               "       seine_deceive --one SEED           one attack again\n"
-               "       seine_deceive --look SCENARIO PLAN  what is true of a plan\n"
-               "       seine_deceive --clean N [--seed FIRST]  plans of all families: is a clean one refused?\n");
+  std::fprintf(
+      stderr,
+      "usage: seine_deceive [MINUTES] [--seed FIRST] [--only NAME] [--threads N] [--out FOLDER]\n"
+      "       seine_deceive --one SEED           one attack again\n"
+      "       seine_deceive --look SCENARIO PLAN  what is true of a plan\n"
+      "       seine_deceive --clean N [--seed FIRST]  plans of all families: is a clean one refused?\n");
   return 2;
 }
 
@@ -153,12 +154,18 @@ int run(const std::vector<std::string>& arguments) {
     }
     const std::string& value = arguments[++i];
     if (name == "--look" && i + 1 < arguments.size()) return look_at_files(value, arguments[i + 1]);
-    if (name == "--seed" || name == "--one") first = std::strtoull(value.c_str(), nullptr, 10);
-    else if (name == "--only") only = value;
-    else if (name == "--out") folder = value;
-    else if (name == "--threads") threads = static_cast<unsigned>(std::max(1, std::atoi(value.c_str())));
-    else if (name == "--clean") clean = std::atol(value.c_str());
-    else return complain();
+    if (name == "--seed" || name == "--one")
+      first = std::strtoull(value.c_str(), nullptr, 10);
+    else if (name == "--only")
+      only = value;
+    else if (name == "--out")
+      folder = value;
+    else if (name == "--threads")
+      threads = static_cast<unsigned>(std::max(1, std::atoi(value.c_str())));
+    else if (name == "--clean")
+      clean = std::atol(value.c_str());
+    else
+      return complain();
     single = single || name == "--one";
   }
   if (clean > 0) return refused_though_clean(first, clean, threads, folder) > 0 ? 1 : 0;

@@ -54,16 +54,28 @@ class Mutation {
     if (way_.segments.empty() || rng_.below(4) == 0) return change_question();
     Segment& segment = way_.segments[static_cast<std::size_t>(pick(rng_, way_.segments.size()))];
     switch (rng_.below(10)) {
-      case 0: return one_coefficient(segment);
-      case 1: return curve_knot(segment);
-      case 2: return progress_knot(segment);
-      case 3: segment.piece_duration *= 1.0 + magnitude(rng_, 1e-9, 0.1); return;
-      case 4: segment.wait = std::max(0.0, segment.wait + magnitude(rng_, 1e-6, 1.0)); return;
-      case 5: return halve_progress(segment);
-      case 6: return jump_progress(segment);
-      case 7: return stand_between();
-      case 8: return jump_everywhere(segment);
-      default: return odd_things(segment);
+      case 0:
+        return one_coefficient(segment);
+      case 1:
+        return curve_knot(segment);
+      case 2:
+        return progress_knot(segment);
+      case 3:
+        segment.piece_duration *= 1.0 + magnitude(rng_, 1e-9, 0.1);
+        return;
+      case 4:
+        segment.wait = std::max(0.0, segment.wait + magnitude(rng_, 1e-6, 1.0));
+        return;
+      case 5:
+        return halve_progress(segment);
+      case 6:
+        return jump_progress(segment);
+      case 7:
+        return stand_between();
+      case 8:
+        return jump_everywhere(segment);
+      default:
+        return odd_things(segment);
     }
   }
 
@@ -102,7 +114,7 @@ class Mutation {
       Quintic first, second{};
       double scale = 1.0;
       for (std::size_t k = 0; k < 6; ++k, scale *= 0.5) first[k] = c[k] * scale;
-      const double binomial[6][6] = {{1, 0, 0, 0, 0, 0}, {1, 1, 0, 0, 0, 0},  {1, 2, 1, 0, 0, 0},
+      const double binomial[6][6] = {{1, 0, 0, 0, 0, 0}, {1, 1, 0, 0, 0, 0}, {1, 2, 1, 0, 0, 0},
                                      {1, 3, 3, 1, 0, 0}, {1, 4, 6, 4, 1, 0}, {1, 5, 10, 10, 5, 1}};
       for (std::size_t k = 0; k < 6; ++k)
         for (std::size_t i = 0; i <= k; ++i) second[i] += binomial[k][i] * first[k];
@@ -127,7 +139,8 @@ class Mutation {
         segment.progress[j][0] += by * static_cast<double>(j);
       return;
     }
-    const std::size_t axis = static_cast<std::size_t>(rng_.below(2)), k = static_cast<std::size_t>(rng_.below(3));
+    const std::size_t axis = static_cast<std::size_t>(rng_.below(2)),
+                      k = static_cast<std::size_t>(rng_.below(3));
     for (std::size_t i = 1; i < segment.curve.size(); ++i)
       segment.curve[i][axis][k] += by * length_ * static_cast<double>(i);
   }
@@ -164,7 +177,9 @@ class Mutation {
 
   void odd_things(Segment& segment) {
     switch (rng_.below(4)) {
-      case 0: segment.gear = -segment.gear; return;
+      case 0:
+        segment.gear = -segment.gear;
+        return;
       case 1:
         if (way_.segments.size() > 1) way_.segments.pop_back();
         return;
@@ -176,8 +191,8 @@ class Mutation {
         return;
       }
       default:
-        std::swap(way_.segments, case_.plan.robots[static_cast<std::size_t>(
-                                                       pick(rng_, case_.plan.robots.size()))].segments);
+        std::swap(way_.segments,
+                  case_.plan.robots[static_cast<std::size_t>(pick(rng_, case_.plan.robots.size()))].segments);
     }
   }
 
@@ -187,21 +202,39 @@ class Mutation {
     const double by = magnitude(rng_, 1e-7, 0.3) * length_;
     vehicle::Limits& limits = model_.limits;
     switch (rng_.below(9)) {
-      case 0: limits.speed *= tighter; return;
-      case 1: limits.acceleration *= tighter; return;
-      case 2: limits.steering *= tighter; return;
-      case 3: limits.lateral_acceleration = std::min(10.0, limits.lateral_acceleration) * tighter; return;
-      case 4: limits.steering_rate = std::min(10.0, limits.steering_rate) * tighter; return;
-      case 5: scenario.margins.robot += std::abs(by); return;
-      case 6: scenario.margins.obstacle += std::abs(by); return;
-      case 7: asked_.start.x += by; return;
-      default: move_obstacle(by);
+      case 0:
+        limits.speed *= tighter;
+        return;
+      case 1:
+        limits.acceleration *= tighter;
+        return;
+      case 2:
+        limits.steering *= tighter;
+        return;
+      case 3:
+        limits.lateral_acceleration = std::min(10.0, limits.lateral_acceleration) * tighter;
+        return;
+      case 4:
+        limits.steering_rate = std::min(10.0, limits.steering_rate) * tighter;
+        return;
+      case 5:
+        scenario.margins.robot += std::abs(by);
+        return;
+      case 6:
+        scenario.margins.obstacle += std::abs(by);
+        return;
+      case 7:
+        asked_.start.x += by;
+        return;
+      default:
+        move_obstacle(by);
     }
   }
 
   void move_obstacle(double by) {
     if (case_.scenario.obstacles.empty()) return;
-    auto& obstacle = case_.scenario.obstacles[static_cast<std::size_t>(pick(rng_, case_.scenario.obstacles.size()))];
+    auto& obstacle =
+        case_.scenario.obstacles[static_cast<std::size_t>(pick(rng_, case_.scenario.obstacles.size()))];
     if (auto* circle = std::get_if<world::Circle>(&obstacle.shape)) circle->center.x += by;
     if (auto* polygon = std::get_if<std::vector<Vec2>>(&obstacle.shape))
       for (Vec2& p : *polygon) p.y += by;

@@ -7,8 +7,9 @@
 
 namespace seine::deceive {
 
-/// A small change of a case, of the plan or of the question: rounding, a knot moved with its neighbours fitted
-/// anew, other durations, joints that jump, standing segments put in between, tighter limits, moved obstacles.
+/// A small change of a case, of the plan or of the question: rounding, a knot moved with its neighbours
+/// fitted anew, other durations, joints that jump, standing segments put in between, tighter limits, moved
+/// obstacles.
 void mutate(Case& mutant, Rng& rng);
 
 /// A task of any family, small enough to be planned in a fraction of a second.

@@ -26,9 +26,9 @@ Verdict judge(const Case& tried, const Look& look, bool look_always = false);
 /// of a search that makes the true fault worse while the certificate accepts.
 struct Attack {
   Case best;
-  Verdict verdict;        ///< of `best`, by a fine look
-  int tried = 0;          ///< cases
-  int accepted = 0;       ///< by the certificate
+  Verdict verdict;   ///< of `best`, by a fine look
+  int tried = 0;     ///< cases
+  int accepted = 0;  ///< by the certificate
   bool deceived() const { return verdict.accepted && verdict.ratio > 1.0; }
 };
 

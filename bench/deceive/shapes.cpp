@@ -72,8 +72,7 @@ double distance_to_rim(Vec2 point, std::span<const Vec2> polygon) {
 bool inside(Vec2 point, std::span<const Vec2> polygon) {
   bool odd = false;
   each_edge(polygon, [&](Vec2 a, Vec2 b) {
-    if ((a.y > point.y) != (b.y > point.y) &&
-        point.x < a.x + (point.y - a.y) / (b.y - a.y) * (b.x - a.x))
+    if ((a.y > point.y) != (b.y > point.y) && point.x < a.x + (point.y - a.y) / (b.y - a.y) * (b.x - a.x))
       odd = !odd;
   });
   return odd;

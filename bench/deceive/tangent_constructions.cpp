@@ -38,7 +38,8 @@ Case teleport(Genes genes) {
 Case two_roots(Genes genes) {
   const Vec2 d = direction(genes);
   const double length = genes.log(0.01, 10.0), size = genes.log(0.1, 100.0) * length;
-  const double a = genes.uniform(0.1, 0.4), b = genes.uniform(0.6, 0.9), least = size * genes.log(1e-12, 1e-3);
+  const double a = genes.uniform(0.1, 0.4), b = genes.uniform(0.6, 0.9),
+               least = size * genes.log(1e-12, 1e-3);
   // c (w − a)² (w − b)² + least, integrated
   const double s = a + b, p = a * b, c = 30.0 * size;
   const Quintic x{0.0, c * p * p + least, -c * s * p, c * (s * s + 2.0 * p) / 3.0, -c * s / 2.0, c / 5.0};
@@ -53,7 +54,8 @@ Case two_roots(Genes genes) {
 Case over_the_knot(Genes genes) {
   const Vec2 d = direction(genes);
   const double length = genes.log(0.01, 10.0), size = genes.log(0.1, 10.0) * length;
-  const double tiny = size * genes.log(1e-9, 1e-2), before = genes.log(1e-6, 0.9), after = genes.log(1e-6, 0.9);
+  const double tiny = size * genes.log(1e-9, 1e-2), before = genes.log(1e-6, 0.9),
+               after = genes.log(1e-6, 0.9);
   const double bend = genes.uniform(-1.0, 1.0) * size;
   Segment segment;
   segment.curve = {along({}, d, linear(0.0, tiny)), along(tiny * d, d, {0.0, tiny, 0.0, size, 0.0, 0.0})};
@@ -163,10 +165,14 @@ Case huge_curve(Genes genes) {
 }  // namespace
 
 void add_tangent_constructions(std::vector<Construction>& all) {
-  for (const Construction& c :
-       {Construction{"teleport", teleport}, {"two_roots", two_roots}, {"over_the_knot", over_the_knot},
-        {"hidden_run", hidden_run}, {"cusp", cusp}, {"forth_and_back", forth_and_back},
-        {"creeping", creeping}, {"huge_curve", huge_curve}})
+  for (const Construction& c : {Construction{"teleport", teleport},
+                                {"two_roots", two_roots},
+                                {"over_the_knot", over_the_knot},
+                                {"hidden_run", hidden_run},
+                                {"cusp", cusp},
+                                {"forth_and_back", forth_and_back},
+                                {"creeping", creeping},
+                                {"huge_curve", huge_curve}})
     all.push_back(c);
 }
 

@@ -12,16 +12,21 @@ namespace seine::deceive {
 world::Scenario random_task(Rng& rng) {
   const std::uint64_t seed = rng.next() % 1'000'000;
   switch (rng.below(8)) {
-    case 0: return world::generate(world::Family::random, 1 + rng.below(10), seed);
-    case 1: return world::generate(world::Family::swap, 2 + rng.below(4), seed);
-    case 2: return world::generate(world::Family::corridor, 2 + rng.below(4), seed);
-    case 3: return world::generate(world::Family::parking, 1 + rng.below(3), seed);
+    case 0:
+      return world::generate(world::Family::random, 1 + rng.below(10), seed);
+    case 1:
+      return world::generate(world::Family::swap, 2 + rng.below(4), seed);
+    case 2:
+      return world::generate(world::Family::corridor, 2 + rng.below(4), seed);
+    case 3:
+      return world::generate(world::Family::parking, 1 + rng.below(3), seed);
     case 4: {
       constexpr int kTeams[] = {3, 4, 6};
       const auto cluttered = rng.below(2) == 0 ? world::Clutteredness::few : world::Clutteredness::dense;
       return world::throw_scene(kTeams[rng.below(3)], seed, cluttered);
     }
-    case 5: return world::gap_scene(3 + rng.below(2), seed);
+    case 5:
+      return world::gap_scene(3 + rng.below(2), seed);
     default: {
       const auto kinds = world::all_everyday();
       const auto vehicles = vehicle::catalogue();

@@ -111,9 +111,10 @@ std::string describe(const std::vector<Fault>& faults) {
   for (const Fault& f : faults) {
     if (!(f.ratio > 1.0)) continue;
     char line[200];
-    std::snprintf(line, sizeof line, "    car %d%s: %s %.8g, allowed %.8g (t = %.6f s, %.3g x the tolerance)\n",
-                  f.robot, f.other >= 0 ? (" and " + std::to_string(f.other)).c_str() : "", f.what,
-                  f.value, f.limit, f.time, f.ratio);
+    std::snprintf(line, sizeof line,
+                  "    car %d%s: %s %.8g, allowed %.8g (t = %.6f s, %.3g x the tolerance)\n", f.robot,
+                  f.other >= 0 ? (" and " + std::to_string(f.other)).c_str() : "", f.what, f.value, f.limit,
+                  f.time, f.ratio);
     text += line;
   }
   return text;

@@ -14,18 +14,18 @@ namespace seine::deceive {
 /// what the look finds is real but for rounding. Lengths hold for cars from `short_car` on and shrink with
 /// shorter ones; speeds are relative to a speed of the car.
 struct Grants {
-  double short_car = 0.25;      ///< m
-  double limit = 2e-6;          ///< of a limit, at an instant
-  double limit_floor = 2e-9;    ///< in units of the quantity
-  double place = 1.05e-4;       ///< m, start and goal
-  double heading = 1.05e-4;     ///< rad, start and goal
-  double clearance = 2.1e-4;    ///< m below the margin
-  double rest = 1.05e-3;        ///< relative: at rest, of the start speed, and against the gear
-  double slip = 1.05e-5;        ///< m, all jumps of the position together
-  double turn = 1.05e-4;        ///< rad, all jumps of the heading together
-  double surge = 1.05e-3;       ///< relative, all jumps of the speed together
-  double steer = 1.05e-3;       ///< of the largest curvature, all jumps of the curvature together
-  double backing = 1.05e-4;     ///< m, driven against the gear in all
+  double short_car = 0.25;    ///< m
+  double limit = 2e-6;        ///< of a limit, at an instant
+  double limit_floor = 2e-9;  ///< in units of the quantity
+  double place = 1.05e-4;     ///< m, start and goal
+  double heading = 1.05e-4;   ///< rad, start and goal
+  double clearance = 2.1e-4;  ///< m below the margin
+  double rest = 1.05e-3;      ///< relative: at rest, of the start speed, and against the gear
+  double slip = 1.05e-5;      ///< m, all jumps of the position together
+  double turn = 1.05e-4;      ///< rad, all jumps of the heading together
+  double surge = 1.05e-3;     ///< relative, all jumps of the speed together
+  double steer = 1.05e-3;     ///< of the largest curvature, all jumps of the curvature together
+  double backing = 1.05e-4;   ///< m, driven against the gear in all
   /// What a whole window (of time, or of distance) may exceed its limits by, in what its jumps may.
   double window = 2.0;
 };

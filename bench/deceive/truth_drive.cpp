@@ -58,8 +58,10 @@ class DriveLook {
   }
 
   void at_instant(const Sight& s) {
-    limit("speed (m/s)", s.t, s.speed, limits_.speed);
-    limit("reverse speed (m/s)", s.t, -s.speed, limits_.reverse_speed);
+    if (s.rate >= 0.0) {  // else it counts as driven against the gear, below
+      limit("speed (m/s)", s.t, s.speed, limits_.speed);
+      limit("reverse speed (m/s)", s.t, -s.speed, limits_.reverse_speed);
+    }
     limit("acceleration (m/s2)", s.t, std::abs(s.acceleration), limits_.acceleration);
     limit("lateral acceleration (m/s2)", s.t, std::abs(s.lateral), limits_.lateral_acceleration);
     limit("curvature (1/m)", s.t, std::abs(s.curvature), bend_);
@@ -129,8 +131,7 @@ class DriveLook {
 
 void look_at_end(const char* place, const char* turn, double t, const geom::Pose2& is,
                  const geom::Pose2& wanted, double size, const Grants& grants, Ledger& ledger) {
-  ledger.offer(place, t, std::hypot(is.x - wanted.x, is.y - wanted.y), 0.0,
-               grants.place * size);
+  ledger.offer(place, t, std::hypot(is.x - wanted.x, is.y - wanted.y), 0.0, grants.place * size);
   ledger.offer(turn, t, std::abs(geom::wrap_angle(is.heading - wanted.heading)), 0.0, grants.heading);
 }
 
@@ -164,8 +165,8 @@ void look_at_drive(const world::Scenario& scenario, int robot, const traj::Robot
   DriveLook drive(model, grants, ledger);
   const double size = scale_of(model, grants).size;
   const geom::Pose2 first = pose_at(way, 0.0);
-  look_at_end("distance from the start (m)", "angle to the start (rad)", 0.0, first, asked.start,
-              size, grants, ledger);
+  look_at_end("distance from the start (m)", "angle to the start (rad)", 0.0, first, asked.start, size,
+              grants, ledger);
   const double end = track.empty() ? 0.0 : track.back().t;
   if (asked.goal)
     look_at_end("distance from the goal (m)", "angle to the goal (rad)", end, pose_at(way, end + 1.0),

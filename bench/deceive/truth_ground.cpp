@@ -67,23 +67,28 @@ double distance_to(const Body& body, const Polygon& car, const geom::Pose2& pose
   return polygon_distance(car, moves ? placed(body.polygon, frame) : body.polygon);
 }
 
-/// To the nearest blocked cell, cell by cell.
+/// What lies outside the picture is unknown, and so an obstacle.
+bool solid(const geom::OccupancyGrid& map, int x, int y) {
+  if (x < 0 || y < 0 || x >= map.width || y >= map.height) return true;
+  return map.occupied[static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width) +
+                      static_cast<std::size_t>(x)] != 0;
+}
+
+/// To the nearest solid cell, cell by cell.
 double distance_to_cells(const geom::OccupancyGrid& map, const Polygon& car, const geom::Pose2& pose,
                          double reach, double cap) {
   const double c = std::cos(map.origin.heading), s = std::sin(map.origin.heading);
   const double dx = pose.x - map.origin.x, dy = pose.y - map.origin.y;
   const double column = (c * dx + s * dy) / map.resolution, row = (c * dy - s * dx) / map.resolution;
   const double around = (reach + cap) / map.resolution + 1.0;
-  const int first = std::max(0, static_cast<int>(std::floor(column - around)));
-  const int last = std::min(map.width - 1, static_cast<int>(std::ceil(column + around)));
-  const int bottom = std::max(0, static_cast<int>(std::floor(row - around)));
-  const int top = std::min(map.height - 1, static_cast<int>(std::ceil(row + around)));
+  const auto first = static_cast<int>(std::floor(column - around)),
+             last = static_cast<int>(std::ceil(column + around)),
+             bottom = static_cast<int>(std::floor(row - around)),
+             top = static_cast<int>(std::ceil(row + around));
   double least = kInfinity;
   for (int y = bottom; y <= top; ++y) {
     for (int x = first; x <= last; ++x) {
-      if (map.occupied[static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width) +
-                       static_cast<std::size_t>(x)] == 0)
-        continue;
+      if (!solid(map, x, y)) continue;
       const double r = map.resolution, l = x * r, b = y * r;
       const Vec2 cell[4] = {{l, b}, {l + r, b}, {l + r, b + r}, {l, b + r}};
       least = std::min(least, convex_distance(car, placed(cell, map.origin)));
@@ -95,7 +100,8 @@ double distance_to_cells(const geom::OccupancyGrid& map, const Polygon& car, con
 double distance_to_bounds(const geom::Box& bounds, const Polygon& car) {
   double least = kInfinity;
   for (const Vec2 p : car)
-    least = std::min({least, p.x - bounds.low.x, p.y - bounds.low.y, bounds.high.x - p.x, bounds.high.y - p.y});
+    least =
+        std::min({least, p.x - bounds.low.x, p.y - bounds.low.y, bounds.high.x - p.x, bounds.high.y - p.y});
   return least;
 }
 
@@ -134,7 +140,8 @@ void look_at_ground(const world::Scenario& scenario, int robot, const traj::Robo
     left = left || still >= margin;
     const double asked = left ? margin : std::min(margin, *scenario.margins.leaving);
     ledger.offer("overlap of the margin with what stands (m)", t, asked - std::min(still, cap), 0.0, granted);
-    ledger.offer("overlap of the margin with what moves (m)", t, margin - std::min(moving, cap), 0.0, granted);
+    ledger.offer("overlap of the margin with what moves (m)", t, margin - std::min(moving, cap), 0.0,
+                 granted);
     before = pose;
   }
 }
@@ -174,8 +181,7 @@ void look_at_net(const world::Scenario& scenario, const traj::TeamTrajectory& pl
       }
       for (std::size_t l = k + 1; l < n; ++l) {
         const Vec2 rest = net.rest[l] - net.rest[k];
-        ledger.offer("two attachments too far apart (m)", t,
-                     std::hypot(ring[l].x - p.x, ring[l].y - p.y),
+        ledger.offer("two attachments too far apart (m)", t, std::hypot(ring[l].x - p.x, ring[l].y - p.y),
                      net.stretch * std::hypot(rest.x, rest.y), granted);
       }
     }

@@ -35,7 +35,9 @@ Case scraping(Genes genes) {
   Case made = case_of("scraping", car(length), {{{{drive({}, {way, 0.0}, 10.0)}}}});
   made.scenario.margins.obstacle = genes.coin() ? 0.0 : genes.uniform(0.0, 0.2) * length;
   made.scenario.obstacles.push_back(
-      {.name = "wall", .shape = std::vector<Vec2>{{0.0, wall}, {way, wall}, {way, 2.0 * wall + length}, {0.0, 2.0 * wall + length}}});
+      {.name = "wall",
+       .shape = std::vector<Vec2>{
+           {0.0, wall}, {way, wall}, {way, 2.0 * wall + length}, {0.0, 2.0 * wall + length}}});
   return made;
 }
 
@@ -106,8 +108,8 @@ Case solid_map(Genes genes) {
       const bool band = y >= low && y < high;
       const bool corner = x < 2 * thick && y < 2 * thick;
       const bool blocked = sort == 0 ? rim : sort == 1 ? band : sort == 2 ? corner : rim && band;
-      map.occupied[static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width) + static_cast<std::size_t>(x)] =
-          blocked ? 1 : 0;
+      map.occupied[static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width) +
+                   static_cast<std::size_t>(x)] = blocked ? 1 : 0;
     }
   }
   const double reach = 0.5 * std::hypot(width, height) + 2.0 * length, angle = genes.uniform(-3.1, 3.1);
@@ -123,8 +125,11 @@ Case solid_map(Genes genes) {
 }  // namespace
 
 void add_world_constructions(std::vector<Construction>& all) {
-  for (const Construction& c : {Construction{"tiny", tiny}, {"scraping", scraping}, {"slow", slow},
-                                {"beside_the_goal", beside_the_goal}, {"tiny_arc", tiny_arc},
+  for (const Construction& c : {Construction{"tiny", tiny},
+                                {"scraping", scraping},
+                                {"slow", slow},
+                                {"beside_the_goal", beside_the_goal},
+                                {"tiny_arc", tiny_arc},
                                 {"solid_map", solid_map}})
     all.push_back(c);
 }

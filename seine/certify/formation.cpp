@@ -86,7 +86,8 @@ Formation::Formation(const net::Net& net, std::span<const Mover* const> robots, 
 
 void Formation::add_beat(double t0, double t1, const Phases& phases, std::span<const std::size_t> at) {
   const std::size_t first = cells_.size(), before = first - size();
-  beats_.push_back({.t0 = t0, .t1 = t1, .loaded = t0 >= phases.loaded, .held = phases.held(t0), .first = first});
+  beats_.push_back(
+      {.t0 = t0, .t1 = t1, .loaded = t0 >= phases.loaded, .held = phases.held(t0), .first = first});
   for (std::size_t k = 0; k < size(); ++k) {
     const Cell* cell = &robots_[k]->cells[at[k]];
     const bool same = first > 0 && cells_[before + k] == cell;
