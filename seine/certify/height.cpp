@@ -76,12 +76,12 @@ void DragProof::run() {
   glimpse();
   for (const Beat& beat : formation_.beats()) {
     worst_ = 0.0;
-    if (beat.loaded && beat.strayed_within <= lasts_) continue;
+    if (beat.strayed_within <= lasts_) continue;
     const Slice slice = formation_.slice(beat);
     const double least = height_.least(slice);
     if (!(least - clearance_ >= wanted())) {
       refine(slice, 0);
-    } else if (beat.loaded) {
+    } else {
       lasts_ = beat.strayed + height_.reserve(slice, least, clearance_ + wanted());
     }
   }
