@@ -53,6 +53,7 @@ void Session::stop_and_steer() {
 bool Session::wriggles() const {
   constexpr int kMany = 3;  // gear changes
   if (guess_.robots.size() != 1) return false;
+  if (guess_.robots[0].path.wriggles) return true;
   int changes = 0;
   const auto& points = guess_.robots[0].path.points;
   for (std::size_t i = 1; i < points.size(); ++i) changes += points[i].gear != points[i - 1].gear;

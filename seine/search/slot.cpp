@@ -28,8 +28,10 @@ constexpr double kCell = 0.02;     // of a position bin
 constexpr int kHeadings = 180;     // bins
 constexpr double kRoomy = 0.1;     // of room: with more than that bins are larger
 constexpr int kCoarser = 6;        // times
-// Where the wheel hard over leads less far than this it is tried turned by a part of that.
-constexpr double kBlocked = 0.1, kPart = 0.4;
+constexpr double kScarce = 5e-3;   // of room: with less than that its order of magnitude counts
+// Where the wheel hard over leads less far than this it is tried turned by a part of that,
+// and by a part of the part.
+constexpr double kBlocked = 0.1, kPart = 0.4, kLeastPart = 1e-4;
 constexpr double kJerkShare = 0.15;  // of v / a: what a stretch takes longer for its smooth ends
 // Of the time that the arcs on both sides take the wheel turns meanwhile, in a bend and at a gear change:
 // hard over to hard over it turns at rest.
@@ -163,11 +165,14 @@ std::uint64_t SlotSearch::bin(const Node& n) const {
     return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(value + 0.5)) + (1 << 20));
   };
   const bool roomy = n.room > kRoomy * length_;
+  // Who leaves a wall that it touches gains room by the factor, not by the metre.
+  const auto scarce = static_cast<std::uint64_t>(
+      std::clamp(std::log2(kScarce * length_ / std::max(n.room, 1e-9)), 0.0, 31.0));
   const int coarser = roomy ? kCoarser : 1;
   const double cell = coarser * kCell * length_;
   const std::uint64_t turn = index(n.pose.heading * kHeadings / (coarser * 2.0 * std::numbers::pi)) & 0x3ff;
   return (index((n.pose.x - p_.inside.x) / cell) << 42) ^ (index((n.pose.y - p_.inside.y) / cell) << 20) ^
-         (turn << 2) ^ (roomy ? 2U : 0U) ^ (n.progress.last.gear() < 0 ? 1U : 0U);
+         (scarce << 12) ^ (turn << 2) ^ (roomy ? 2U : 0U) ^ (n.progress.last.gear() < 0 ? 1U : 0U);
 }
 
 void SlotSearch::push(int index) {
@@ -324,10 +329,16 @@ double SlotSearch::move(int index, double curvature, int gear) {
 
 void SlotSearch::expand(int index) {
   const double full = 1.0 / p_.radius;
+  const double least = node(index).room < kScarce * length_ ? kLeastPart : 0.5 * kPart;
   for (const int gear : {1, -1}) {
     move(index, 0.0, gear);
-    for (const double curvature : {full, -full})
-      if (move(index, curvature, gear) < kBlocked * length_) move(index, kPart * curvature, gear);
+    for (const double curvature : {full, -full}) {
+      double part = 1.0;
+      do {
+        if (move(index, part * curvature, gear) >= kBlocked * length_) break;
+        part *= kPart;
+      } while (part > least);
+    }
   }
 }
 

@@ -163,8 +163,10 @@ std::optional<Path> Guess::find_path_from(const world::Robot& who, const geom::P
   std::optional<Path> path = planner.plan(start, *who.goal, plainly);
   // Where that failed the car brakes first.
   if (path && options_.quickest && follows(rolling, *path, hardest)) return path;
-  for (const double share : {0.7 * hardest, hardest}) {
-    std::optional<Path> braking = brake_straight(rolling, share);
+  const std::optional<Path> ways_to_brake[] = {brake_straight(rolling, 0.7 * hardest),
+                                               brake_straight(rolling, hardest),
+                                               brake_before_obstacle(rolling, hardest)};
+  for (std::optional<Path> braking : ways_to_brake) {
     if (!braking) continue;
     const std::optional<Path> onwards = planner.plan(braking->points.back().pose, *who.goal, options);
     if (!onwards) continue;
