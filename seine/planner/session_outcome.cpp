@@ -48,16 +48,14 @@ void Session::stop_and_steer() {
   slowed_by_ = std::numeric_limits<double>::infinity();
 }
 
-// Whether a car by itself goes forth and back many times: then the optimiser has little to better, and much
-// work with it.
+// Whether a car by itself goes forth and back often: then the optimiser has little to better, and much work.
 bool Session::wriggles() const {
-  constexpr int kMany = 3;  // gear changes
   if (guess_.robots.size() != 1) return false;
-  if (guess_.robots[0].path.wriggles) return true;
+  const search::Path& path = guess_.robots[0].path;
   int changes = 0;
-  const auto& points = guess_.robots[0].path.points;
-  for (std::size_t i = 1; i < points.size(); ++i) changes += points[i].gear != points[i - 1].gear;
-  return changes >= kMany;
+  for (std::size_t i = 1; i < path.points.size(); ++i)
+    changes += path.points[i].gear != path.points[i - 1].gear;
+  return changes >= (path.wriggles ? 2 : 3);
 }
 
 // The shorter of what held at once and what held slower.
