@@ -18,6 +18,7 @@ using geom::Convex;
 using geom::Vec2;
 
 constexpr double kNear = 1e-4;      // m: counts as a hit
+constexpr double kLeaving = 1e-3;   // s, between looks at what it was released in
 constexpr int kMostSteps = 200000;  // of one obstacle; a flight that needs more all but touches it
 
 geom::Pose2 pose_at(const std::vector<Waypoint>& motion, double t) {
@@ -72,14 +73,16 @@ std::optional<FlightObstruction> flight_obstruction(const Scenario& scenario, co
     const std::vector<Convex> body = body_of(obstacle);
     const double closing = std::max(speed + top_speed(obstacle.motion, body), 1e-6);
     double t = target.time;
+    bool out = false;  // of what it was released in
     for (int step = 0; t <= until; ++step) {
       const geom::Vec3 at = flight.at(t).position;
       const double left = distance_to(body, pose_at(obstacle.motion, t), obstacle.height, at) - target.radius;
-      if (left < kNear || step >= kMostSteps) {
+      out = out || left >= kNear;
+      if ((out && left < kNear) || step >= kMostSteps) {
         if (!first || t < first->time) first = {static_cast<int>(i), t, at.z};
         break;
       }
-      t += left / closing;
+      t += out ? left / closing : kLeaving;
     }
   }
   return first;

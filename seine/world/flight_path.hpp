@@ -16,8 +16,9 @@ struct FlightObstruction {
 };
 
 /// The first obstacle that the target hits between its release and `until` (s), if any: obstacles that stand
-/// and that move, as high as they are, to within a tenth of a millimetre. Obstacles without a height and the
-/// map are not looked at: nothing says how tall they are.
+/// and that move, as high as they are, to within a tenth of a millimetre. An obstacle
+/// that it is released in, the thrower or a table, counts from when it has left it. Obstacles without a
+/// height and the map are not looked at: nothing says how tall they are.
 std::optional<FlightObstruction> flight_obstruction(const Scenario& scenario, const net::Target& target,
                                                     double until);
 

@@ -48,6 +48,7 @@ TEST(FlightPath, AgreesWithALookAtEveryTenthOfAMillisecond) {
     ASSERT_TRUE(crossing);
     const double until = crossing->state.time;
     double least = 1e9, first = 1e9;
+    bool out = false;
     for (double t = 0.0; t <= until; t += 1e-4) {
       const double share = std::clamp((t - 0.2) / 0.6, 0.0, 1.0);
       const double heading = from.heading + share * (to.heading - from.heading);
@@ -56,6 +57,8 @@ TEST(FlightPath, AgreesWithALookAtEveryTenthOfAMillisecond) {
       const Vec2 local{std::cos(heading) * d.x + std::sin(heading) * d.y,
                        std::cos(heading) * d.y - std::sin(heading) * d.x};
       const double gap = std::hypot(beside(local, half_length, half_width), std::max(0.0, p.z - height));
+      out = out || gap > target.radius + 1e-4;
+      if (!out) continue;
       least = std::min(least, gap - target.radius);
       if (gap < target.radius) first = std::min(first, t);
     }
