@@ -115,8 +115,11 @@ Case solid_map(Genes genes) {
   const double reach = 0.5 * std::hypot(width, height) + 2.0 * length, angle = genes.uniform(-3.1, 3.1);
   const double aside = genes.uniform(-0.5, 0.5) * std::min(width, height);
   const Vec2 middle = map.origin * Vec2{0.5 * width, 0.5 * height};
-  const Vec2 d = geom::unit(angle), from = middle - reach * d + aside * geom::left_normal(d);
-  const double part = genes.coin() ? 2.0 : genes.uniform(0.2, 2.0);  // all across, or parked on the way
+  const Vec2 d = geom::unit(angle);
+  // From outside or from within; all across, or parked on the way.
+  const double back = genes.coin() ? reach : genes.uniform(-0.4, 0.4) * std::min(width, height);
+  const double part = genes.coin() ? 2.0 : genes.uniform(0.01, 2.0);
+  const Vec2 from = middle - back * d + aside * geom::left_normal(d);
   Case made = case_of("solid_map", car(length), {{{{drive(from, from + part * reach * d, 5.0 * reach)}}}});
   made.scenario.map = map;
   return made;
