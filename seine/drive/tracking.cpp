@@ -64,6 +64,7 @@ mpc::Options tracking_options(const sim::Noise& noise) {
   mpc::Options options;
   options.period = sim::kControlPeriod;
   options.lag = std::max(noise.acceleration_lag, noise.steering_lag);
+  options.stopping = sim::kWatchdogBraking;
   return options;
 }
 

@@ -18,6 +18,7 @@ std::vector<std::string> Options::validate() const {
   require(acceleration_change > 0.0 && steering_change > 0.0, "the largest changes must be positive");
   require(authority > 0.0, "authority must be positive");
   require(reuse >= 0, "reuse must not be negative");
+  require(stopping > 0.0 && stopping <= 1.0, "stopping must be above 0 and at most 1");
   bool weights_are_fine = true;
   for (const double w : weights.state) weights_are_fine = weights_are_fine && weight(w);
   for (const auto* row : {&weights.input, &weights.effort, &weights.change})

@@ -35,6 +35,8 @@ struct Options {
   double authority = 15.7;
   Discretisation discretisation = Discretisation::exact;
   int reuse = 5;  ///< commands taken from the last good plan before the car is stopped
+  /// Of the limit of acceleration, by which a car stops that has no plan any more.
+  double stopping = 1.0;
   optim::QpOptions qp{
       .absolute = 1e-5, .relative = 1e-5, .max_iterations = 500, .interior_after = 200, .keep_scaling = true};
 

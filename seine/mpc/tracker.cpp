@@ -119,7 +119,8 @@ Input Tracker::fall_back(const Actuators::Outlook& from, Source& source) {
   planned_ = false;
   source = Source::stopping;
   const double rate = qp_.most_change().acceleration / options_.step, speed = std::abs(from.state.speed);
-  const double brake = std::min(speed / options_.period, std::sqrt(2.0 * rate * speed));
+  const double brake = std::min(
+      {speed / options_.period, std::sqrt(2.0 * rate * speed), options_.stopping * qp_.most().acceleration});
   return limited({std::copysign(brake, -from.state.speed), from.acting.steering}, from.acting);
 }
 

@@ -43,10 +43,12 @@ Command Car::parked(double time) const {
   return {std::clamp(-rolling / (kControlPeriod + 2.0 * lag), -hardest, hardest), belief().steering};
 }
 
-void Car::control(std::size_t index, double time, const traj::RobotTrajectory& way, const PlanClock& clock,
-                  const Controller& controller, bool fails) {
-  const Reference reference{way, clock.ahead(noise_.dead_time)};
-  const bool arrived = clock.stands() || clock.time() > way.arrival() + kParkAfter;
+void Car::control(std::size_t index, double time, const Reference& now, const Controller& controller,
+                  bool fails) {
+  Reference reference{now.way, now.clock.ahead(noise_.dead_time), now.escort};
+  if (reference.escort) reference.escort = reference.escort->later(noise_.dead_time);
+  const bool leads = now.escort && !now.escort->stands();
+  const bool arrived = !leads && (now.clock.stands() || now.clock.time() > now.way.arrival() + kParkAfter);
   const Control control =
       arrived ? Control{parked(time)} : controller(index, expected(time), reference, fails);
   failures_ = control.failed ? failures_ + 1 : 0;

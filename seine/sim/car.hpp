@@ -17,8 +17,8 @@ class Car {
   Car(const vehicle::Model& model, const Noise& noise, const CarState& start, std::uint64_t seed);
 
   /// Asks the controller for where the car will be when the command takes effect. @param fails on purpose
-  void control(std::size_t index, double time, const traj::RobotTrajectory& way, const PlanClock& clock,
-               const Controller& controller, bool fails);
+  void control(std::size_t index, double time, const Reference& now, const Controller& controller,
+               bool fails);
   void sense(bool fix_available) { localisation_.look(plant_.state(), fix_available); }
   void advance(double duration, geom::Vec2 pull) { plant_.advance(duration, pull); }
   void break_down() { plant_.break_down(); }

@@ -9,8 +9,6 @@ namespace seine::sim {
 namespace {
 
 constexpr double kSlipMemory = 0.3;  // s
-// Of the limit: gently enough that the others, who learn of it later, can keep up and the net stays whole.
-constexpr double kWatchdogBraking = 0.7;
 
 // A first-order lag for `duration`; none when the time constant is zero.
 double towards(double value, double wanted, double lag, double duration) {

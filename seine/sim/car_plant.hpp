@@ -29,6 +29,10 @@ struct CarState {
 inline constexpr double kCarMass = 15.0;  ///< kg: only what the net's pull does to a car depends on it …
 inline constexpr double kTakeUp = 0.15;   ///< s, … until the motor's own speed loop has taken it up
 
+/// Of the limit of acceleration, by which a car brakes whose computer has failed: gently enough that the
+/// others, which learn of it later, can keep up and the net stays whole.
+inline constexpr double kWatchdogBraking = 0.7;
+
 /// One step of the bicycle with its lags towards `wanted`: exact arc for the mean speed and curvature.
 /// `stretch` and `twist` are factors on the distance and the turn (1 without slip), `push` is an acceleration
 /// from outside (m/s²) along the car.

@@ -73,6 +73,10 @@ std::string Conductor::name(std::size_t robot) const {
   return given.empty() ? "robot " + std::to_string(robot + 1) : given;
 }
 
+Reference Conductor::reference_of(std::size_t robot) const {
+  return {plan_.robots[robot], clock_, robot == silent_ ? std::nullopt : escort_};
+}
+
 std::vector<std::string> Conductor::news() {
   return std::exchange(news_, {});
 }
@@ -88,6 +92,8 @@ void Conductor::decide(double time, std::span<const Car> cars, const std::vector
   if (stopping_) {
     const CarState silent = silent_ ? cars[*silent_].belief() : CarState{};
     clock_.accelerate(stopping_change(scenario_, plan_, clock_, silent_, silent));
+    if (silent_ && scenario_.net)
+      escort_.emplace(scenario_.model_of(scenario_.robots[*silent_]), silent, plan_.robots[*silent_]);
     return;
   }
   keep_together(time, cars);

@@ -25,6 +25,8 @@ class Conductor {
 
   const traj::TeamTrajectory& plan() const { return plan_; }
   const PlanClock& clock() const { return clock_; }
+  /// What a car has to do from now on.
+  Reference reference_of(std::size_t robot) const;
   double end() const { return begin_ + plan_.makespan() + waited_; }  ///< s, of the plan
   bool stopping() const { return stopping_; }
   int adopted() const { return adopted_; }
@@ -56,6 +58,7 @@ class Conductor {
   double free_from_ = 0.0;  // s, from when on nothing but the team itself hangs on the plan's clock
   bool stopping_ = false;
   std::optional<std::size_t> silent_;  // the car that does not answer
+  std::optional<Escort> escort_;       // with a net: how the others go with it
   std::optional<Candidate> candidate_;
   bool was_late_ = false;  // the last answer
   double next_ask_ = 0.0;  // s

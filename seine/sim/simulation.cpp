@@ -145,7 +145,7 @@ void Loop::control(double time) {
     bool fails = false;
     for (const Faults::FailedControl& fault : options_.faults.failed_controls)
       fails = fails || (fault.robot == k && time >= fault.at && time < fault.at + fault.duration);
-    cars_[k].control(k, time, conductor_.plan().robots[k], conductor_.clock(), controller_, fails);
+    cars_[k].control(k, time, conductor_.reference_of(k), controller_, fails);
   }
 }
 

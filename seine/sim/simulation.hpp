@@ -2,11 +2,13 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "seine/sim/car_plant.hpp"
 #include "seine/sim/catch_watch.hpp"
+#include "seine/sim/escort.hpp"
 #include "seine/sim/noise.hpp"
 #include "seine/sim/plan_clock.hpp"
 #include "seine/sim/recorder.hpp"
@@ -25,9 +27,12 @@ inline constexpr double kCountdown = 0.3;  ///< s
 struct Reference {
   const traj::RobotTrajectory& way;
   PlanClock clock;
+  std::optional<Escort> escort{};  ///< where it goes with a car that does not answer
 
   /// What it should do `ahead` seconds from now.
-  traj::State at(double ahead) const { return clock.ahead(ahead).state_on(way); }
+  traj::State at(double ahead) const {
+    return escort ? escort->state_on(way, clock, ahead) : clock.ahead(ahead).state_on(way);
+  }
 };
 
 /// What a controller wants of its car.
