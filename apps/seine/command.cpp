@@ -2,8 +2,10 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <thread>
 
 #include "seine/base/error.hpp"
 #include "seine/io/scenario_file.hpp"
@@ -41,8 +43,15 @@ void add_scenario(CLI::App& command, ScenarioChoice& choice) {
 }
 
 void add_threads(CLI::App& command, int& threads) {
-  command.add_option("--threads", threads, "0: as many as the machine has")
+  const int most = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  command
+      .add_option("--threads", threads,
+                  "0: as many as the machine has; of more than that only so many are started")
       ->check(CLI::Range(0, 1024))
+      ->transform([most](const std::string& text) {
+        int asked = 0;
+        return CLI::detail::lexical_cast(text, asked) && asked > most ? std::to_string(most) : text;
+      })
       ->capture_default_str();
 }
 

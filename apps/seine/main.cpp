@@ -1,5 +1,7 @@
 // The command line of Seine: reads the arguments, runs one subcommand, turns every failure into one line and
 // an exit status.
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -9,6 +11,7 @@
 #include "apps/seine/command.hpp"
 #include "apps/seine/interrupt.hpp"
 #include "seine/base/error.hpp"
+#include "seine/io/message.hpp"
 #include "seine/io/report.hpp"
 
 namespace {
@@ -27,7 +30,9 @@ Exit status: 0 done (plan: certified; simulate: everything asked for happened), 
 
 /// One line on stderr, and with --json also an object on stdout.
 int fail(const Invocation& invocation, std::string message, int status) {
+  constexpr std::size_t kLongest = 600;
   std::replace(message.begin(), message.end(), '\n', ' ');
+  message = seine::io::printable(message, kLongest);
   std::fprintf(stderr, "seine: %s\n", message.c_str());
   if (invocation.json) std::fputs(seine::io::failure_json(message).c_str(), stdout);
   return status;
@@ -39,10 +44,24 @@ int run(const Invocation& invocation) {
   } catch (const seine::InputError& error) {
     return fail(invocation, error.what(), seine::app::kWrong);
   } catch (const std::bad_alloc&) {
-    return fail(invocation, "out of memory: the task is too large for this machine", seine::app::kWrong);
+    return fail(invocation,
+                "out of memory: the task takes more than 4 GiB, or more than the machine has; a coarser map, "
+                "fewer obstacles or larger cars need less",
+                seine::app::kWrong);
   } catch (const std::exception& error) {
     return fail(invocation, std::string("internal error: ") + error.what(), seine::app::kNo);
   }
+}
+
+// A task that asks for more ends in one line, not in a machine that swaps. (Sanitizers need far more.)
+void limit_memory() {
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  constexpr rlim_t kMost = rlim_t{4} << 30;
+  rlimit limit{};
+  if (getrlimit(RLIMIT_DATA, &limit) != 0 || limit.rlim_cur <= kMost) return;
+  limit.rlim_cur = kMost;
+  setrlimit(RLIMIT_DATA, &limit);
+#endif
 }
 
 }  // namespace
@@ -70,6 +89,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return fail(invocation, error.what() + std::string(" (try --help)"), seine::app::kWrong);
   }
+  limit_memory();
   seine::app::end_on_interrupt();
   return run(invocation);
 }

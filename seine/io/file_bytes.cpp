@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
 #include <fstream>
 #include <system_error>
@@ -35,15 +36,20 @@ std::string read_file(const fs::path& path, std::size_t limit) {
     throw complaint(path.string(), 0,
                     std::string("cannot be read: ") + (errno != 0 ? std::strerror(errno) : "?"));
   }
+  const auto too_large = [&] {
+    return complaint(path.string(), 0,
+                     "is too large, expected at most " + std::to_string(limit >> 20) + " MiB");
+  };
+  if (fs::is_regular_file(path, error)) {
+    const std::uintmax_t size = fs::file_size(path, error);
+    if (!error && size > limit) throw too_large();
+  }
   // Read in chunks: pipes have no size, and a size reported by the file system may lie.
   std::string content;
   char chunk[1 << 16];
   while (in.read(chunk, sizeof chunk), in.gcount() > 0) {
     content.append(chunk, static_cast<std::size_t>(in.gcount()));
-    if (content.size() > limit) {
-      throw complaint(path.string(), 0,
-                      "is too large, expected at most " + std::to_string(limit >> 20) + " MiB");
-    }
+    if (content.size() > limit) throw too_large();
   }
   if (in.bad()) throw complaint(path.string(), 0, "cannot be read to its end");
   return content;

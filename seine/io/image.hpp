@@ -20,7 +20,7 @@ struct GreyImage {
 };
 
 /// Pictures with more pixels are refused.
-inline constexpr std::size_t kMaxPixels = 100'000'000;
+inline constexpr std::size_t kMaxPixels = 25'000'000;
 
 /// PGM, binary (P5) or text (P2), up to 16 bits, or PNG of any colour type (colours are averaged, without
 /// gamma); told apart by their first bytes. Throws InputError.

@@ -9,7 +9,7 @@
 namespace seine::io {
 namespace {
 
-constexpr std::size_t kHeaderBytes = std::size_t{1} << 20, kPictureBytes = std::size_t{512} << 20;
+constexpr std::size_t kHeaderBytes = std::size_t{1} << 20, kPictureBytes = std::size_t{64} << 20;
 constexpr Range kProbability{0.0, 1.0};
 
 bool read_flag(const YamlValue& value) {
@@ -87,6 +87,8 @@ geom::OccupancyGrid parse_movingai(std::string_view text, const std::string& fil
   geom::OccupancyGrid grid;
   grid.height = read_count(take_line(text), "height", file, 2);
   grid.width = read_count(take_line(text), "width", file, 3);
+  if (static_cast<std::size_t>(grid.width) * static_cast<std::size_t>(grid.height) > kMaxPixels)
+    throw complaint(file, 3, "has too many cells, expected at most 25 million");
   if (take_line(text) != "map") throw complaint(file, 4, "is no MovingAI map, expected 'map'");
   grid.resolution = 1.0;
   const std::size_t width = static_cast<std::size_t>(grid.width),

@@ -29,6 +29,10 @@ std::string joined(const Parts&... parts) {
   return out;
 }
 
+/// Text of a user's, fit for a message: control characters and what is no UTF-8 as '?', and at most so many
+/// bytes, what is left out in the middle as "...".
+std::string printable(std::string_view text, std::size_t most);
+
 /// The exception "file:line: message"; no line when it is 0.
 InputError complaint(const std::string& file, int line, const std::string& message);
 

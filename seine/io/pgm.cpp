@@ -76,7 +76,7 @@ GreyImage decode_pgm(std::string_view bytes, const std::string& file) {
   image.width = reader.next("width", 1, 1'000'000);
   image.height = reader.next("height", 1, 1'000'000);
   image.white = reader.next("largest shade", 1, 65535);
-  if (image.pixels() > kMaxPixels) reader.fail("has too many pixels, expected at most 100 million");
+  if (image.pixels() > kMaxPixels) reader.fail("has too many pixels, expected at most 25 million");
   if (!text) {
     read_raster(reader.raster(), reader, image);
     return image;

@@ -15,7 +15,8 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t kPlanBytes = std::size_t{256} << 20;
+constexpr std::size_t kPlanBytes = std::size_t{64} << 20;
+constexpr int kMostValues = 5'000'000;
 constexpr int kDeepest = 32;       // levels of brackets; a plan has nine
 constexpr double kLongest = 1e6;   // s
 constexpr double kLargest = 1e15;  // of a coefficient
@@ -75,7 +76,7 @@ class Place {
 
 /// Refused before the parser spends memory on it.
 void expect_shallow(std::string_view text, const std::string& file) {
-  int depth = 0, line = 1;
+  int depth = 0, line = 1, values = 0;
   bool quoted = false;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
@@ -88,6 +89,8 @@ void expect_shallow(std::string_view text, const std::string& file) {
     quoted = c == '"';
     if (c == '[' || c == '{') ++depth;
     if (c == ']' || c == '}') --depth;
+    if ((c == ',' || c == '[' || c == '{') && ++values > kMostValues)
+      throw complaint(file, line, joined("has more than ", kMostValues, " values, expected a plan"));
     if (depth > kDeepest) throw complaint(file, line, "is nested too deeply to be a plan");
   }
 }
@@ -193,7 +196,7 @@ void expect_same_team(const world::Scenario& scenario, const PlanFile& plan, con
   for (std::size_t i = 0; i < plan.robots.size(); ++i) {
     if (plan.robots[i] == scenario.robots[i].name) continue;
     throw complaint(file, 0,
-                    joined("robots[", i, "] is '", plan.robots[i].substr(0, 60), "', expected '",
+                    joined("robots[", i, "] is '", printable(plan.robots[i], 60), "', expected '",
                            scenario.robots[i].name, "' as in the scenario"));
   }
 }

@@ -12,7 +12,8 @@
 namespace seine::io {
 namespace {
 
-constexpr double kStateRate = 20.0;  // Hz, design section 10
+constexpr double kStateRate = 20.0;    // Hz, design section 10
+constexpr double kMostStates = 300e3;  // of a team; long plans of many cars have fewer a second
 
 template <class Range, class Write>
 std::string list_text(const Range& range, const char* between, Write&& write) {
@@ -54,12 +55,12 @@ std::string state_json(const traj::State& state, double wheelbase) {
   return out;
 }
 
-std::string states_json(const traj::RobotTrajectory& robot, double wheelbase) {
+std::string states_json(const traj::RobotTrajectory& robot, double wheelbase, double rate) {
   std::string out = "[";
   const double arrival = robot.arrival();
-  const auto steps = static_cast<long>(std::ceil(arrival * kStateRate - 1e-9));
+  const auto steps = static_cast<long>(std::ceil(arrival * rate - 1e-9));
   for (long i = 0; i <= steps; ++i) {
-    const double t = std::min(static_cast<double>(i) / kStateRate, arrival);
+    const double t = std::min(static_cast<double>(i) / rate, arrival);
     if (i > 0) out += ",\n    ";
     out += state_json(robot.at(t), wheelbase);
   }
@@ -68,7 +69,7 @@ std::string states_json(const traj::RobotTrajectory& robot, double wheelbase) {
 }
 
 std::string robot_json(const world::Scenario& scenario, std::size_t index,
-                       const traj::RobotTrajectory& trajectory) {
+                       const traj::RobotTrajectory& trajectory, double rate) {
   const world::Robot& robot = scenario.robots[index];
   JsonObject object;
   object.add("name", robot.name);
@@ -79,7 +80,7 @@ std::string robot_json(const world::Scenario& scenario, std::size_t index,
     object.add_raw("stands", list_text(std::array{pose.x, pose.y, pose.heading}, ", ", json_number));
   }
   object.add_raw("segments", list_text(trajectory.segments, ",\n    ", segment_json));
-  object.add_raw("states", states_json(trajectory, scenario.model_of(robot).wheelbase));
+  object.add_raw("states", states_json(trajectory, scenario.model_of(robot).wheelbase, rate));
   return object.lines();
 }
 
@@ -109,6 +110,9 @@ std::string settings_json(const world::Scenario& scenario, const PlanSettings& s
 
 std::string plan_text(const world::Scenario& scenario, const planner::PlanResult& result,
                       const PlanSettings& settings) {
+  double driven = 0.0;  // s, of all cars
+  for (const traj::RobotTrajectory& robot : result.plan.robots) driven += robot.arrival();
+  const double rate = std::min(kStateRate, kMostStates / std::max(driven, 1.0));
   if (result.plan.robots.size() != scenario.robots.size()) {
     throw Error(joined("a plan for ", result.plan.robots.size(), " robots does not fit a scenario with ",
                        scenario.robots.size()));
@@ -124,7 +128,7 @@ std::string plan_text(const world::Scenario& scenario, const planner::PlanResult
   std::string robots = "[\n";
   for (std::size_t i = 0; i < result.plan.robots.size(); ++i) {
     if (i > 0) robots += ",\n";
-    robots += robot_json(scenario, i, result.plan.robots[i]);
+    robots += robot_json(scenario, i, result.plan.robots[i], rate);
   }
   robots += "]";
   object.add_raw("robots", robots);

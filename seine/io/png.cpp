@@ -66,7 +66,7 @@ bool begin_decoding(Decoding& d) {
   d.width = png_get_image_width(d.png, d.info);
   d.height = png_get_image_height(d.png, d.info);
   if (static_cast<std::size_t>(d.width) * d.height > kMaxPixels)
-    png_error(d.png, "it has over 100 million pixels");
+    png_error(d.png, "it has over 25 million pixels");
   // Deflate packs at most 1032 bytes into one: a small file that claims more is refused before memory is
   // taken for it.
   if (png_get_rowbytes(d.png, d.info) * d.height / 1040 > d.bytes.size())

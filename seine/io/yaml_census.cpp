@@ -53,6 +53,30 @@ class DepthHandler final : public YAML::EventHandler {
   int values_ = 0;
 };
 
+// What no file of ours has and the library takes long over.
+void expect_ordinary(std::string_view text, const std::string& file) {
+  constexpr std::size_t kLongestWord = 4096, kLongestRun = 4096,
+                        kLongestLine = std::size_t{1} << 20;  // bytes
+  const auto parts = [](char c) {
+    return std::string_view(" \n\r\t,:[]{}").find(c) != std::string_view::npos;
+  };
+  std::size_t word = 0, run = 0, in_line = 0;
+  int line = 1;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    word = parts(c) ? 0 : word + 1;
+    run = i > 0 && text[i - 1] == c ? run + 1 : 1;
+    in_line = c == '\n' ? 0 : in_line + 1;
+    if (word > kLongestWord)
+      throw complaint(file, line, joined("has a word of more than ", kLongestWord, " bytes"));
+    if (run > kLongestRun)
+      throw complaint(file, line, joined("has one character more than ", kLongestRun, " times in a row"));
+    if (in_line > kLongestLine)
+      throw complaint(file, line, joined("has a line of more than ", kLongestLine, " bytes"));
+    line += c == '\n' ? 1 : 0;
+  }
+}
+
 }  // namespace
 
 std::string yaml_complaint(const std::string& said) {
@@ -65,6 +89,7 @@ std::string yaml_complaint(const std::string& said) {
 }
 
 void expect_one_shallow_document(std::string_view text, const std::string& file) {
+  expect_ordinary(text, file);
   try {
     std::istringstream stream{std::string(text)};
     YAML::Parser parser(stream);

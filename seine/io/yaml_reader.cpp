@@ -16,11 +16,7 @@ constexpr std::string_view kMerge = "<<";       // YAML 1.1's merge key
 
 /// `text` cut to a length that fits a message, control bytes as '?'.
 std::string excerpt(std::string_view text) {
-  std::string shown(text.substr(0, 40));
-  for (char& c : shown) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
-  }
-  return shown + (text.size() > 40 ? "..." : "");
+  return printable(text, 40);
 }
 
 /// Number of edits (insert, delete, replace, swap of neighbours) between two words.

@@ -14,6 +14,7 @@ std::size_t idx(int i) {
 }
 
 // Where a goal is further off the units of the way are longer.
+constexpr std::size_t kMostEvents = 1 << 20;  // of all moving obstacles on all clocks, some 400 MB
 constexpr double kMostUnitsAhead = 100e3;
 
 // m, by model: the furthest that a goal lies from its start.
@@ -70,8 +71,13 @@ Coordinator::Coordinator(const world::Scenario& scenario, const LatticeOptions& 
   const std::vector<MovingPart> parts = moving_parts(scenario);
   for (const MovingPart& part : parts) part_of_.push_back(part.obstacle);
   obstacles_.resize(clocks_.size());
+  const std::size_t many = std::min(MovingBody::kManyEvents,
+                                    kMostEvents / std::max<std::size_t>(1, clocks_.size() * parts.size()));
   for (std::size_t c = 0; c < clocks_.size(); ++c)
-    for (const MovingPart& part : parts) obstacles_[c].emplace_back(part.shape, part.motion, clocks_[c]);
+    for (const MovingPart& part : parts) {
+      const bool late = deadline_.expired();  // then nothing is planned with them
+      obstacles_[c].emplace_back(part.shape, late ? part.motion.last(1) : part.motion, clocks_[c], many);
+    }
 }
 
 std::shared_ptr<Way> Coordinator::make_way(int robot, Path path, bool careful) const {

@@ -10,6 +10,7 @@ namespace {
 
 using vehicle::Arc;
 
+constexpr int kPopsPerClock = 8;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kWords =
     3;  // Reeds-Shepp words tried per shot: the best one is often blocked where the third is not
@@ -285,7 +286,7 @@ LatticeResult Lattice::run() {
   // Once a way is known a better one is looked for only about as long again.
   int limit = s_.max_expansions;
   for (int pops = 0, index = start() ? pop() : -1; index >= 0 && result.expansions < limit; index = pop()) {
-    if (++pops % 64 == 0 && p_.deadline.expired()) break;
+    if (++pops % kPopsPerClock == 0 && p_.deadline.expired()) break;
     if (node(index).stage == Stage::guessed && !check(index)) {
       node(index).stage = Stage::closed;
       continue;

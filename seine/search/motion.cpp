@@ -11,7 +11,9 @@ namespace seine::search {
 namespace {
 
 constexpr double kFar = 100.0;  // radii of the car: a straight line this long is looked at as a whole
-constexpr std::size_t kMaxCorners = 32;  // footprints with more fall back to the heap
+constexpr std::size_t kFewPieces = 256;    // … where the map has no more than this
+constexpr unsigned kLooksPerClock = 1024;  // samples of a sweep
+constexpr std::size_t kMaxCorners = 32;    // footprints with more fall back to the heap
 
 /// Distance from a point inside a counter-clockwise convex polygon to its boundary (negative outside).
 double depth_inside(std::span<const geom::Vec2> polygon, geom::Vec2 p) {
@@ -165,11 +167,14 @@ double FootprintChecker::sweep(const geom::Pose2& from, double room_from, const 
   std::array<Sample, 64> ahead;  // bisection: its depth is the logarithm of length over resolution
   std::size_t count = 0;
   Sample here{0.0, room_from};
+  const bool few = map_->pieces().size() <= kFewPieces;
+  unsigned looks = 0;
   ahead[count++] = {length, room_to};
   while (count > 0) {
     const Sample next = ahead[count - 1];
     const double gap = next.s - here.s;
-    const bool far = arc.curvature == 0.0 && gap > kFar * reach_;
+    if (++looks % kLooksPerClock == 0 && deadline_.expired()) return -1.0;
+    const bool far = arc.curvature == 0.0 && gap > kFar * reach_ && few;
     if (here.room + next.room >= speed * gap || gap <= resolution_ || count == ahead.size() ||
         (far && straight_clear(vehicle::drive(from, 0.0, sign * here.s), sign * gap))) {
       here = next;

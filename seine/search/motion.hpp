@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "seine/base/deadline.hpp"
 #include "seine/geom/box.hpp"
 #include "seine/geom/pose2.hpp"
 #include "seine/search/point_distances.hpp"
@@ -42,6 +43,9 @@ class FootprintChecker {
   /// Footprints in the world (convex, counter-clockwise) that are obstacles too, with their own clearance.
   /// The spans must outlive the checker.
   void park(std::span<const geom::Vec2> footprint, double clearance);
+
+  /// Sweeps that last longer than this are taken for blocked.
+  void until(const Deadline& deadline) { deadline_ = deadline; }
 
   /// Search slack: poses must have at least this much room. It pays twice, as something left for the
   /// optimiser and because a sweep then needs few samples. Within `radius` of `center` the smaller `slack`
@@ -99,6 +103,7 @@ class FootprintChecker {
   DiscCover cover_;
   double clearance_;
   double slack_ = 0.0;
+  Deadline deadline_;
   double resolution_;
   double look_;        // m: how far an exact query looks
   geom::Vec2 middle_;  // of the footprint's bounding circle, body frame

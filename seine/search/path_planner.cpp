@@ -112,6 +112,7 @@ FootprintChecker PathPlanner::Impl::checker(const geom::Pose2& start, const geom
   FootprintChecker checker(map, &distances, model, options.clearance);
   if (std::min(checker.exact_room(start), checker.exact_room(goal)) < kTouch)
     checker = FootprintChecker(map, &distances, model, options.clearance - kGranted);
+  checker.until(options.deadline);
   const geom::Convex body{model.footprint};
   const geom::Convex at_start = geom::placed(body, start), at_goal = geom::placed(body, goal);
   const geom::Box start_box = at_start.box(), goal_box = at_goal.box();

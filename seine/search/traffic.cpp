@@ -73,8 +73,8 @@ std::vector<Vec2> enclosing_polygon(const geom::Convex& shape) {
 constexpr double kStill = 1e-3;
 // What moves further than this within one tick has several events for it.
 constexpr double kLeap = 0.5;
-// Motions of more events than this (an hour at walking pace) are told ever more coarsely towards their end.
-constexpr std::size_t kManyEvents = 1 << 16, kCoarserEvery = 1 << 13;
+// Beyond many events the tolerance doubles each time that this share of them has been added.
+constexpr std::size_t kCoarserShare = 8;
 
 // A moving obstacle between ticks: how far its points get from a pose in a span of time.
 class ObstacleWalker {
@@ -203,7 +203,8 @@ MovingBody::MovingBody(const Path& path, std::span<const ProfileKnot> profile,
   finish();
 }
 
-MovingBody::MovingBody(const geom::Convex& shape, std::span<const world::Waypoint> motion, double tick) {
+MovingBody::MovingBody(const geom::Convex& shape, std::span<const world::Waypoint> motion, double tick,
+                       std::size_t many) {
   const std::vector<Vec2> polygon = enclosing_polygon(shape);
   const SweptFootprint footprint(polygon);
   corners_ = footprint.corners();
@@ -211,6 +212,7 @@ MovingBody::MovingBody(const geom::Convex& shape, std::span<const world::Waypoin
   const double reach = footprint.reach();
   const ObstacleWalker walker(motion, reach, tick);
   double tolerance = kStill * reach;
+  std::size_t next = many;
   int span = 1;
   for (int q = 0; q < walker.rest(); q += span) {
     span = walker.longest_span(q, 2 * span, tolerance);
@@ -223,7 +225,7 @@ MovingBody::MovingBody(const geom::Convex& shape, std::span<const world::Waypoin
         events_.back().turned = footprint.grow(hop.pose, hop.away, out);
       }
     }
-    if (events_.size() > kManyEvents && events_.size() % kCoarserEvery == 0) tolerance *= 2.0;
+    if (events_.size() > next) next += std::max<std::size_t>(1, many / kCoarserShare), tolerance *= 2.0;
   }
   const std::span<Vec2> out = add_event(walker.rest(), kForever);
   events_.back().turned = footprint.grow(motion.back().pose, walker.away_for_good(), out);

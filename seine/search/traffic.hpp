@@ -16,6 +16,7 @@ namespace seine::search {
 class MovingBody {
  public:
   static constexpr int kForever = std::numeric_limits<int>::max();
+  static constexpr std::size_t kManyEvents = 1 << 16;  ///< an hour at walking pace
 
   struct Event {
     geom::Box box;
@@ -34,7 +35,9 @@ class MovingBody {
              double tick);
   /// A convex part of a moving obstacle: `shape` in the obstacle's body frame; a rounded shape is replaced by
   /// a polygon around it.
-  MovingBody(const geom::Convex& shape, std::span<const world::Waypoint> motion, double tick);
+  /// @param many  events beyond which the motion is told ever more coarsely towards its end
+  MovingBody(const geom::Convex& shape, std::span<const world::Waypoint> motion, double tick,
+             std::size_t many = kManyEvents);
 
   std::span<const Event> events() const { return events_; }
   std::span<const Chunk> chunks() const { return chunks_; }

@@ -140,7 +140,7 @@ TEST(MapFile, PngOfEveryColourType) {
 TEST(MapFile, HostilePicturesAreRefused) {
   const auto said = [](const std::string& bytes) { return complaint_of([&] { decode_image(bytes, "a"); }); };
   EXPECT_EQ(said(""), "a: is no picture this program reads, expected PGM (P2 or P5) or PNG");
-  EXPECT_EQ(said("P5\n1000000 1000000\n255\n"), "a:3: has too many pixels, expected at most 100 million");
+  EXPECT_EQ(said("P5\n1000000 1000000\n255\n"), "a:3: has too many pixels, expected at most 25 million");
   EXPECT_EQ(said("P5\n99999999999999999999 1\n255\n"), "a:2: has width 1000000000, expected 1 to 1000000");
   EXPECT_EQ(said("P5\n10000 10000\n255\nabc"), "a:3: ends after 3 of 100000000 pixels");
   EXPECT_EQ(said("P2\n10000 10000\n255\n1 2 3"), "a:3: is too short for its width and height");
