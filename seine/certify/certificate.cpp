@@ -8,6 +8,7 @@
 #include "seine/certify/clearance.hpp"
 #include "seine/certify/form.hpp"
 #include "seine/certify/net_proof.hpp"
+#include "seine/world/check.hpp"
 
 namespace seine::certify {
 namespace {
@@ -111,7 +112,7 @@ class Proof {
     const double grain = kMovingGrain * shortest_car(context_.scenario);
     parts_.resize(obstacles.size());
     for (std::size_t i = 0; i < obstacles.size(); ++i) {
-      if (obstacles[i].motion.empty()) continue;
+      if (world::stands_still(obstacles[i])) continue;  // the map has them
       parts_[i] = parts_of(obstacles[i]);
       for (const geom::Convex& part : parts_[i]) {
         scene_.moving.push_back(
@@ -177,6 +178,7 @@ class Proof {
 
 Certificate certify(const world::Scenario& scenario, const world::StaticMap& map,
                     const traj::TeamTrajectory& plan, const Options& options) {
+  world::expect_numbers(scenario);
   const Stopwatch watch;
   Certificate certificate;
   Context context{scenario, map, options};

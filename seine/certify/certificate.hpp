@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <string>
 #include <vector>
@@ -43,7 +44,7 @@ enum class Kind {
   braking,       ///< a car brakes or accelerates too hard for what lies in the net
   carrying,      ///< a car drives so fast that the air may blow what lies in the net out of it
   delivery,      ///< the team does not come to rest where it must
-  undecided,     ///< the proof ran out of its deadline or its depth: counted as broken
+  undecided,     ///< the proof ran out of its deadline or its depth: no proof, and no refutation
 };
 const char* name_of(Kind kind);
 
@@ -86,6 +87,12 @@ struct Certificate {
   NetRoom net;        ///< infinite without a net
   std::vector<net::Catch> catches;  ///< one a target, in their order; NaN where it is never in reach
   double seconds = 0.0;             ///< wall time of the proof
+
+  /// Neither proved nor refuted: nothing that is broken was found, but the proof did not come to its end.
+  bool undecided() const {
+    return !violations.empty() &&
+           std::ranges::all_of(violations, [](const Violation& v) { return v.kind == Kind::undecided; });
+  }
 };
 
 struct Options {

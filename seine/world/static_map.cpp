@@ -7,6 +7,7 @@
 #include <deque>
 
 #include "seine/base/error.hpp"
+#include "seine/geom/grid_check.hpp"
 #include "seine/geom/polygon.hpp"
 
 namespace seine::world {
@@ -102,6 +103,11 @@ void StaticMap::add_pieces(const Scenario& scenario) {
     }
   }
   if (!scenario.map) return;
+  if (!geom::is_complete(*scenario.map)) {
+    throw InputError("the map has " + std::to_string(scenario.map->occupied.size()) + " cells, expected " +
+                     std::to_string(scenario.map->width) + " x " + std::to_string(scenario.map->height) +
+                     " of a positive, finite size");
+  }
   std::vector<geom::Convex> rectangles = geom::boundary_rectangles(*scenario.map);
   pieces_.reserve(pieces_.size() + rectangles.size());
   for (geom::Convex& rectangle : rectangles) pieces_.push_back({std::move(rectangle), {}, -1});
