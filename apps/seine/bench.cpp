@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
-#include <iostream>
 #include <limits>
 #include <map>
 #include <memory>
@@ -14,6 +13,7 @@
 #include "apps/seine/bench_table.hpp"
 #include "apps/seine/command.hpp"
 #include "apps/seine/everyday_table.hpp"
+#include "apps/seine/output.hpp"
 #include "apps/seine/progress_line.hpp"
 #include "seine/base/deadline.hpp"
 #include "seine/base/error.hpp"
@@ -60,13 +60,17 @@ struct Instance {
   std::function<world::Scenario()> load;
 };
 
-void add_files(const std::string& path, std::vector<Instance>& instances) {
+/// The output may lie in such a folder, but is no task.
+void add_files(const std::string& path, const std::string& output, io::Reading& reading,
+               std::vector<Instance>& instances) {
+  const std::optional<io::FileId> results = io::file_id(output);
   std::vector<fs::path> files;
   if (!fs::exists(path)) throw InputError(path + ": no such file or folder");
   if (fs::is_directory(path)) {
     for (const auto& entry : fs::directory_iterator(path)) {
       const std::string extension = entry.path().extension().string();
-      if (entry.is_regular_file() && (extension == ".yaml" || extension == ".csv"))
+      if (entry.is_regular_file() && (extension == ".yaml" || extension == ".csv") &&
+          (!results || io::file_id(entry.path()) != results))
         files.push_back(entry.path());
     }
     std::sort(files.begin(), files.end());
@@ -74,6 +78,7 @@ void add_files(const std::string& path, std::vector<Instance>& instances) {
     files.emplace_back(path);
   }
   for (const fs::path& file : files) {
+    reading.add_file(file);
     const fs::path folder = fs::absolute(file).parent_path();
     const std::string group = (folder.parent_path().filename() / folder.filename()).generic_string();
     instances.push_back({group, file.filename().string(), [file] { return io::load_scenario(file); }});
@@ -85,7 +90,7 @@ void add_everyday(const Arguments& arguments, std::vector<Instance>& instances) 
   std::vector<world::Everyday> kinds;
   for (const std::string& name : arguments.kinds) {
     const std::optional<world::Everyday> kind = world::everyday_named(name);
-    if (!kind) throw InputError("bench: no everyday kind '" + name + "', see seine generate --help");
+    if (!kind) throw InputError("bench: there is no everyday kind '" + name + "'" + everyday_kinds(name));
     kinds.push_back(*kind);
   }
   if (kinds.empty()) kinds.assign(world::all_everyday().begin(), world::all_everyday().end());
@@ -95,7 +100,8 @@ void add_everyday(const Arguments& arguments, std::vector<Instance>& instances) 
   for (const world::Everyday kind : kinds) {
     for (const std::string& name : vehicles) {
       const vehicle::Model* model = vehicle::catalogued(name);
-      if (model == nullptr) throw InputError("bench: no vehicle '" + name + "', see seine generate --help");
+      if (model == nullptr)
+        throw InputError("bench: there is no vehicle '" + name + "'" + vehicles_like(name));
       for (int seed = 0; seed < arguments.seeds; ++seed)
         instances.push_back({world::name_of(kind), name + " " + std::to_string(seed), [=] {
                                return world::everyday(kind, *model, static_cast<std::uint64_t>(seed));
@@ -104,7 +110,7 @@ void add_everyday(const Arguments& arguments, std::vector<Instance>& instances) 
   }
 }
 
-void add_generated(const Arguments& arguments, std::vector<Instance>& instances) {
+void add_generated(const Arguments& arguments, io::Reading& reading, std::vector<Instance>& instances) {
   for (const std::string& name : arguments.families) {
     if (name == "everyday") {
       add_everyday(arguments, instances);
@@ -112,8 +118,8 @@ void add_generated(const Arguments& arguments, std::vector<Instance>& instances)
     }
     const std::optional<world::Family> family = world::family_named(name);
     if (!family)
-      throw InputError("bench: no family '" + name +
-                       "', expected random, swap, corridor, parking or everyday");
+      throw InputError("bench: there is no family '" + name + "'" +
+                       suggested(name, {"random", "swap", "corridor", "parking", "everyday"}));
     for (const int robots : arguments.robots) {
       for (int seed = 0; seed < arguments.seeds; ++seed) {
         instances.push_back({name + "-" + std::to_string(robots), "seed " + std::to_string(seed), [=] {
@@ -123,7 +129,7 @@ void add_generated(const Arguments& arguments, std::vector<Instance>& instances)
     }
   }
   for (const std::string& map : arguments.maps) {
-    const auto grid = std::make_shared<const geom::OccupancyGrid>(io::load_map(map));
+    const auto grid = std::make_shared<const geom::OccupancyGrid>(io::load_map(map, &reading));
     for (const int robots : arguments.robots) {
       const std::string group = fs::path(map).stem().string() + "-" + std::to_string(robots);
       for (int seed = 0; seed < arguments.seeds; ++seed) {
@@ -134,10 +140,10 @@ void add_generated(const Arguments& arguments, std::vector<Instance>& instances)
   }
 }
 
-std::vector<Instance> instances_of(const Arguments& arguments) {
+std::vector<Instance> instances_of(const Arguments& arguments, io::Reading& reading) {
   std::vector<Instance> all, chosen;
-  for (const std::string& path : arguments.scenarios) add_files(path, all);
-  add_generated(arguments, all);
+  for (const std::string& path : arguments.scenarios) add_files(path, arguments.output, reading, all);
+  add_generated(arguments, reading, all);
   std::map<std::string, int> in_group;
   for (Instance& instance : all) {
     if (in_group[instance.group]++ < arguments.limit) chosen.push_back(std::move(instance));
@@ -214,8 +220,11 @@ Row measure(const Instance& instance, const Arguments& arguments) {
 }
 
 int run(const Arguments& arguments) {
+  io::Reading reading;
   const std::vector<Row> reference = read_reference(arguments.reference);
-  const std::vector<Instance> instances = instances_of(arguments);
+  reading.add_file(arguments.reference);
+  const std::vector<Instance> instances = instances_of(arguments, reading);
+  expect_writable(arguments.output, reading);
   RowFile file(arguments.output,
                std::string("seine ") + SEINE_VERSION + " deadline " + std::to_string(arguments.deadline) +
                    " s threads " + std::to_string(arguments.threads) + (arguments.alone ? " alone" : "") +
@@ -224,11 +233,13 @@ int run(const Arguments& arguments) {
   for (std::size_t i = 0; i < instances.size(); ++i) {
     line.update(instances[i].group + " " + instances[i].name,
                 static_cast<double>(i) / static_cast<double>(instances.size()));
+    file.refresh();
     if (!file.has(instances[i].group, instances[i].name)) file.append(measure(instances[i], arguments));
   }
+  file.refresh();
   line.clear();
   const bool everyday = arguments.families == std::vector<std::string>{"everyday"};
-  std::cout << (everyday ? everyday_table(file.rows()) : table(file.rows(), reference));
+  tell(everyday ? everyday_table(file.rows()) : table(file.rows(), reference), arguments.output);
   return kDone;
 }
 
@@ -244,11 +255,13 @@ void add_bench(CLI::App& program, Invocation& invocation) {
   command.add_option("--vehicle", arguments->vehicles, "everyday: vehicles (default: all)");
   command.add_option("--map", arguments->maps, "maps to place teams on");
   command.add_option("--robots", arguments->robots, "team sizes for --family and --map")
+      ->check(whole_number(1, 1000))
       ->capture_default_str();
   command.add_option("--seeds", arguments->seeds, "instances of each, seeds 0, 1, ...")
+      ->check(whole_number(1, 1000000))
       ->capture_default_str();
   command.add_option("--limit", arguments->limit, "at most so many instances of a group")
-      ->check(CLI::Range(1, std::numeric_limits<int>::max()));
+      ->check(whole_number(1, std::numeric_limits<int>::max()));
   command.add_option("--deadline", arguments->deadline, "seconds for each plan")
       ->check(kPositive)
       ->capture_default_str();
@@ -257,10 +270,11 @@ void add_bench(CLI::App& program, Invocation& invocation) {
   command
       .add_option("--best-of", arguments->best_of,
                   "also plan with so many other seeds, and compare with the shortest plan")
-      ->check(CLI::Range(0, 1000));
+      ->check(whole_number(0, 1000));
   command.add_option("--reference", arguments->reference,
                      "CSV of published numbers to show beside the groups");
-  command.add_option("-o,--output", arguments->output, "CSV file; what it has already is not done again");
+  command.add_option("-o,--output", arguments->output,
+                     "CSV file; what it has already is not done again; -: stdout");
   command.callback([&invocation, arguments] { invocation.run = [arguments] { return run(*arguments); }; });
 }
 

@@ -1,13 +1,23 @@
 #include "apps/seine/bench_rows.hpp"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <array>
+#include <cerrno>
 #include <cmath>
-#include <filesystem>
+#include <cstring>
+#include <fstream>
 #include <map>
+#include <optional>
 #include <sstream>
 #include <string_view>
 
+#include "apps/seine/output.hpp"
 #include "seine/base/error.hpp"
+#include "seine/io/file_bytes.hpp"
 #include "seine/io/message.hpp"
 #include "seine/io/number_text.hpp"
 
@@ -93,38 +103,117 @@ Row parse_row(const std::vector<std::string>& names, const std::string& line) {
 
 }  // namespace
 
-RowFile::RowFile(const std::string& path, const std::string& settings) {
+/// Nobody else writes to the file while it lives. File systems without locks have one writer.
+class RowFile::Lock {
+ public:
+  explicit Lock(int file) : file_(file) {
+    while (::flock(file_, LOCK_EX) != 0 && errno == EINTR) {
+    }
+  }
+  ~Lock() { ::flock(file_, LOCK_UN); }
+  Lock(const Lock&) = delete;
+  Lock& operator=(const Lock&) = delete;
+
+ private:
+  int file_;
+};
+
+RowFile::RowFile(const std::string& path, const std::string& settings) : path_(path), settings_(settings) {
   if (path.empty()) return;
-  if (std::filesystem::exists(path)) read(path, settings);
-  out_.open(path);  // written anew: the last line may have been cut off by an interrupt
-  if (!out_) throw InputError(path + ": cannot be written");
-  out_ << "# " << settings << "\n" << header() << "\n";
-  for (const Row& row : rows_) out_ << line_of(row) << "\n";
-  out_.flush();
+  if (is_stdout(path)) {
+    file_ = ::dup(STDOUT_FILENO);
+  } else {
+    struct stat found {};
+    regular_ = ::stat(path.c_str(), &found) != 0 || S_ISREG(found.st_mode);
+    file_ = ::open(path.c_str(), (regular_ ? O_RDWR | O_CREAT | O_APPEND : O_WRONLY) | O_CLOEXEC, 0666);
+  }
+  if (file_ < 0) throw InputError(path + ": cannot be written: " + std::strerror(errno));
+  try {
+    begin();
+  } catch (...) {
+    ::close(file_);
+    throw;
+  }
 }
 
-void RowFile::read(const std::string& path, const std::string& settings) {
-  std::ifstream in(path);
+RowFile::~RowFile() {
+  if (file_ >= 0) ::close(file_);
+}
+
+void RowFile::begin() {
+  const std::string head = "# " + settings_ + "\n" + header() + "\n";
+  if (!regular_) return write(head);
+  const Lock lock(file_);
+  std::string start(head.size(), '\0');
+  const ssize_t size = ::pread(file_, start.data(), start.size(), 0);
+  if (size == 0) return write(head);
+  std::istringstream lines(start.substr(0, size > 0 ? static_cast<std::size_t>(size) : 0));
   std::string first, names;
-  if (!std::getline(in, first) || !std::getline(in, names) || names != header()) {
-    throw io::complaint(path, 1, "is no result file of this version: remove it or give another name with -o");
+  std::getline(lines, first);
+  std::getline(lines, names);
+  if (!first.starts_with("# seine ")) {
+    throw io::complaint(path_, 1,
+                        "is no result file of this version: remove it or give another name with -o");
   }
-  if (first != "# " + settings) {
-    throw io::complaint(path, 1,
-                        "was made with '" + first.substr(std::min<std::size_t>(2, first.size())) +
-                            "', not '" + settings + "': remove it or give another name with -o");
+  if (first != "# " + settings_) {
+    throw io::complaint(path_, 1,
+                        "was made with '" + first.substr(2) + "', not '" + settings_ +
+                            "': remove it or give another name with -o");
   }
-  for (std::string line; std::getline(in, line) && !in.eof();) {
-    rows_.push_back(parse_row(fields_of(names), line));
-    known_.insert({rows_.back().group, rows_.back().instance});
+  if (names != header()) {
+    throw io::complaint(path_, 2,
+                        "is no result file of this version: remove it or give another name with -o");
   }
+  read_ = static_cast<std::int64_t>(head.size());
+  take_in();
+}
+
+void RowFile::refresh() {
+  if (!regular_) return;
+  const Lock lock(file_);
+  take_in();
+}
+
+// Under the lock a line without an end is one that was cut off by an interrupt: nobody is at it now.
+void RowFile::take_in() {
+  std::string text;
+  char chunk[1 << 16];
+  for (ssize_t size;
+       (size = ::pread(file_, chunk, sizeof chunk, read_ + static_cast<off_t>(text.size()))) > 0;)
+    text.append(chunk, static_cast<std::size_t>(size));
+  const std::size_t whole = text.rfind('\n') + 1;  // 0 where there is none
+  if (whole < text.size() && ::ftruncate(file_, read_ + static_cast<off_t>(whole)) != 0)
+    throw InputError(path_ + ": cannot be written: " + std::strerror(errno));
+  read_ += static_cast<std::int64_t>(whole);
+  std::istringstream lines(text.substr(0, whole));
+  const std::vector<std::string> names = fields_of(header());
+  for (std::string line; std::getline(lines, line);) {
+    if (line.empty()) continue;
+    Row row = parse_row(names, line);
+    if (known_.insert({row.group, row.instance}).second) rows_.push_back(std::move(row));
+  }
+}
+
+// All of it or nothing.
+void RowFile::write(const std::string& text) {
+  if (!io::write_all(file_, text)) {
+    const int error = errno;
+    if (regular_) static_cast<void>(!::ftruncate(file_, read_));
+    throw InputError((is_stdout(path_) ? "stdout" : path_) + ": cannot be written: " + std::strerror(error));
+  }
+  read_ += static_cast<std::int64_t>(text.size());
 }
 
 void RowFile::append(const Row& row) {
+  const std::string line = line_of(row) + "\n";
+  std::optional<Lock> lock;
+  if (regular_) {
+    lock.emplace(file_);
+    take_in();
+  }
+  if (!known_.insert({row.group, row.instance}).second) return;
   rows_.push_back(row);
-  known_.insert({row.group, row.instance});
-  if (out_.is_open())
-    out_ << line_of(row) << std::endl;  // on disk at once: this is what a later run resumes from
+  if (file_ >= 0) write(line);
 }
 
 std::vector<Row> read_reference(const std::string& path) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <fstream>
+#include <cstdint>
 #include <limits>
 #include <set>
 #include <string>
@@ -27,26 +27,40 @@ struct Row {
   double alone = kNone;  ///< s, mean travel when every car is planned alone
 };
 
-/// Rows in a CSV file that grows line by line, so that an interrupted run goes on where it stopped.
+/// Rows in a CSV file that grows line by line, so that an interrupted run goes on where it stopped. Several
+/// programs may add to one file: each takes the others' rows for its own, and none is lost.
 class RowFile {
  public:
   /// Reads the rows `path` already has. Throws InputError when the file was made with other `settings` or is
   /// no such file.
-  /// @param path empty: rows are kept in memory only
+  /// @param path empty: rows are kept in memory only; "-": they go to stdout
   RowFile(const std::string& path, const std::string& settings);
+  ~RowFile();
+  RowFile(const RowFile&) = delete;
+  RowFile& operator=(const RowFile&) = delete;
 
+  /// Takes in what other programs have added.
+  void refresh();
   bool has(const std::string& group, const std::string& instance) const {
     return known_.contains({group, instance});
   }
+  /// On disk when it returns: this is what a later run resumes from. Throws InputError where it cannot be
+  /// written. A row that is there already, by another program, stays as it is.
   void append(const Row& row);
   const std::vector<Row>& rows() const { return rows_; }
 
  private:
-  void read(const std::string& path, const std::string& settings);
+  class Lock;
+  void begin();
+  void take_in();
+  void write(const std::string& text);
 
+  std::string path_, settings_;
   std::vector<Row> rows_;
   std::set<std::pair<std::string, std::string>> known_;
-  std::ofstream out_;
+  int file_ = -1;
+  bool regular_ = false;   // others may write to it, and what it has can be read
+  std::int64_t read_ = 0;  // bytes of it that are known
 };
 
 /// Published numbers to stand beside a group: the columns of a CSV with the same names, others missing.

@@ -1,10 +1,12 @@
 // seine export: the states of every car, for other programs.
 #include "seine/io/export.hpp"
 
+#include <filesystem>
 #include <memory>
 #include <string>
 
 #include "apps/seine/command.hpp"
+#include "apps/seine/output.hpp"
 #include "seine/io/plan_file.hpp"
 
 namespace seine::app {
@@ -26,10 +28,17 @@ Example
   seine export team.yaml plan.json --rate 100 -o states.csv)";
 
 int run(const Arguments& arguments) {
-  expect_writable(arguments.output);
-  const world::Scenario scenario = arguments.scenario.load();
-  const io::PlanFile plan = io::load_plan(arguments.plan);
+  io::Reading reading;
+  const world::Scenario scenario = arguments.scenario.load(reading);
+  const io::PlanFile plan = io::load_plan(input_path(arguments.plan), &reading);
   io::expect_same_team(scenario, plan, arguments.plan);
+  if (is_stdout(arguments.output)) {
+    expect_writable(arguments.output, reading);
+    print(io::states_csv(scenario, plan.plan, arguments.rate));
+    return kDone;
+  }
+  for (const std::filesystem::path& file : io::exported_files(scenario, arguments.output))
+    expect_writable(file.string(), reading);
   io::export_plan(scenario, plan.plan, arguments.rate, arguments.output);
   return kDone;
 }
@@ -45,7 +54,8 @@ void add_export(CLI::App& program, Invocation& invocation) {
   command.add_option("--rate", arguments->rate, "states a second, Hz")
       ->check(kPositive)
       ->capture_default_str();
-  command.add_option("-o,--output", arguments->output, "*.csv, *.tum or *.yaml")->required();
+  command.add_option("-o,--output", arguments->output, "*.csv, *.tum or *.yaml; -: CSV on stdout")
+      ->required();
   command.callback([&invocation, arguments] { invocation.run = [arguments] { return run(*arguments); }; });
 }
 

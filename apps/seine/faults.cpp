@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "apps/seine/command.hpp"
 #include "seine/base/error.hpp"
 #include "seine/io/number_text.hpp"
 
@@ -129,8 +130,8 @@ void Reader::add_to(sim::Faults& faults) const {
     if (!parts_.duration.empty()) refuse("a breakdown lasts, expected no '+'");
     faults.breakdowns.push_back({robot(), time()});
   } else {
-    refuse("there is no fault '" + kind +
-           "', expected lost-fix, failed-mpc, late-replan, target-jump or breakdown");
+    refuse("there is no fault '" + kind + "'" +
+           suggested(kind, {"lost-fix", "failed-mpc", "late-replan", "target-jump", "breakdown"}));
   }
 }
 

@@ -1,12 +1,13 @@
 // seine generate: random instances by family and seed.
 #include <cstdint>
-#include <iostream>
+#include <filesystem>
 #include <limits>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "apps/seine/command.hpp"
+#include "apps/seine/output.hpp"
 #include "seine/base/error.hpp"
 #include "seine/io/map_file.hpp"
 #include "seine/io/number_text.hpp"
@@ -23,7 +24,7 @@ constexpr const char* kFamilies = "random, swap, corridor, parking, throw, gap, 
 
 struct Arguments {
   std::string family;
-  int robots = 8;
+  std::optional<int> robots;  // 8 where it is not given
   std::uint64_t seed = 0;
   std::string obstacles;
   double gap = 0.0;
@@ -59,6 +60,10 @@ void expect_own_options(const Arguments& arguments) {
   if (!arguments.map.empty() && family != "map") refuse("--map", "family map");
   if (arguments.gap != 0.0 && family != "gap") refuse("--gap", "family gap");
   if (!arguments.kind.empty() && family != "everyday") refuse("--kind", "family everyday");
+  if (arguments.robots && family == "everyday")
+    throw InputError(
+        "generate everyday: --robots is not for the family everyday, whose kinds say how many cars they "
+        "have");
   if (!arguments.vehicle.empty() && family != "everyday") refuse("--vehicle", "family everyday");
   if (!arguments.obstacles.empty() && family != "random" && family != "throw")
     refuse("--obstacles", "families random and throw");
@@ -81,20 +86,20 @@ world::Scenario everyday(const Arguments& arguments) {
   const std::string kind = arguments.kind.empty() ? "open" : arguments.kind;
   const std::string vehicle = arguments.vehicle.empty() ? "letter" : arguments.vehicle;
   const std::optional<world::Everyday> which = world::everyday_named(kind);
-  if (!which) throw InputError("generate everyday: no kind '" + kind + "', see generate --help");
+  if (!which) throw InputError("generate everyday: there is no kind '" + kind + "'" + everyday_kinds(kind));
   const vehicle::Model* model = vehicle::catalogued(vehicle);
   if (model == nullptr)
-    throw InputError("generate everyday: no vehicle '" + vehicle + "', see generate --help");
+    throw InputError("generate everyday: there is no vehicle '" + vehicle + "'" + vehicles_like(vehicle));
   return world::everyday(*which, *model, arguments.seed);
 }
 
-world::Scenario make(const Arguments& arguments) {
+world::Scenario make(const Arguments& arguments, io::Reading& reading) {
   const std::string& name = arguments.family;
-  const int robots = arguments.robots;
+  const int robots = arguments.robots.value_or(8);
   if (name == "map") {
     if (arguments.map.empty())
       throw InputError("generate map: needs --map FILE, a ROS map_server map or a MovingAI grid");
-    return world::on_map(io::load_map(arguments.map), robots, arguments.seed);
+    return world::on_map(io::load_map(input_path(arguments.map), &reading), robots, arguments.seed);
   }
   if (name == "everyday") return everyday(arguments);
   if (name == "throw") return world::throw_scene(robots, arguments.seed, clutteredness(arguments.obstacles));
@@ -103,23 +108,28 @@ world::Scenario make(const Arguments& arguments) {
                                 : world::gap_scene(robots, arguments.seed, arguments.gap);
   }
   const std::optional<world::Family> family = world::family_named(name);
-  if (!family) throw InputError("generate: no family '" + name + "', expected " + kFamilies);
+  if (!family)
+    throw InputError(
+        "generate: there is no family '" + name + "'" +
+        suggested(name, {"random", "swap", "corridor", "parking", "throw", "gap", "map", "everyday"}));
   world::FamilyOptions options;
   if (!arguments.obstacles.empty()) options.obstacles = obstacle_count(arguments.obstacles);
   return world::generate(*family, robots, arguments.seed, options);
 }
 
 int run(const Arguments& arguments) {
-  expect_writable(arguments.output);
   expect_own_options(arguments);
-  const world::Scenario scenario = make(arguments);
-  if (!arguments.output.empty()) {
-    io::save_scenario(scenario, arguments.output);
-  } else if (scenario.map) {
-    throw InputError("generate map: needs -o FILE, the map goes beside it");
-  } else {
-    std::cout << io::scenario_text(scenario);
+  expect_writable(arguments.output, {});
+  io::Reading reading;
+  const world::Scenario scenario = make(arguments, reading);
+  if (arguments.output.empty() || is_stdout(arguments.output)) {
+    if (scenario.map) throw InputError("generate map: needs -o FILE, the map goes beside it");
+    print(io::scenario_text(scenario));
+    return kDone;
   }
+  for (const std::filesystem::path& file : io::saved_files(scenario, arguments.output))
+    expect_writable(file.string(), reading);
+  io::save_scenario(scenario, arguments.output);
   return kDone;
 }
 
@@ -130,7 +140,8 @@ void add_generate(CLI::App& program, Invocation& invocation) {
   command.footer(kFooter);
   const auto arguments = std::make_shared<Arguments>();
   command.add_option("FAMILY", arguments->family, kFamilies)->required();
-  command.add_option("--robots", arguments->robots, "how many cars")->capture_default_str();
+  command.add_option("--robots", arguments->robots, "how many cars (default: 8); not for everyday")
+      ->check(whole_number(1, 1000000));
   add_seed(command, arguments->seed, "which of the instances");
   command.add_option(
       "--obstacles", arguments->obstacles,
@@ -139,7 +150,7 @@ void add_generate(CLI::App& program, Invocation& invocation) {
   command.add_option("--map", arguments->map, "the map for the family map");
   command.add_option("--kind", arguments->kind, "everyday: which kind (default: open)");
   command.add_option("--vehicle", arguments->vehicle, "everyday: which vehicle (default: letter)");
-  command.add_option("-o,--output", arguments->output, "file to write (default: stdout)");
+  command.add_option("-o,--output", arguments->output, "file to write (default, or -: stdout)");
   command.callback([&invocation, arguments] { invocation.run = [arguments] { return run(*arguments); }; });
 }
 

@@ -1,18 +1,24 @@
 // The command line of Seine: reads the arguments, runs one subcommand, turns every failure into one line and
 // an exit status.
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <sstream>
 #include <string>
+#include <vector>
 
 #include "apps/seine/command.hpp"
 #include "apps/seine/interrupt.hpp"
+#include "apps/seine/output.hpp"
 #include "seine/base/error.hpp"
+#include "seine/io/file_bytes.hpp"
 #include "seine/io/message.hpp"
 #include "seine/io/report.hpp"
+#include "seine/io/suggestion.hpp"
 
 namespace {
 
@@ -20,12 +26,15 @@ using seine::app::Invocation;
 
 constexpr const char* kFooter = R"(Examples
   seine generate random --robots 8 --seed 1 -o team.yaml      make a task
+  seine check team.yaml                                       is the task sound? starts, goals, ways, slips
   seine plan team.yaml -o plan.json                           plan it; exit status 0 says: certified
   seine simulate team.yaml plan.json --noise low              drive it
   seine plot team.yaml plan.json -o plan.svg                  look at it
   seine certify team.yaml plan.json                           prove any plan, also an edited one
   seine export team.yaml plan.json --rate 50 -o states.csv    what every car does, 50 times a second
-Exit status: 0 done (plan: certified; simulate: everything asked for happened), 1 no (no certified plan, refuted), 2 wrong input or usage.
+Files: - is the standard input or output; what a command reads it never writes over.
+Exit status: 0 done (plan: certified; simulate: everything asked for happened), 1 no (no certified plan, refuted),
+2 wrong input or usage, or an output that cannot be written, 3 undecided (certify: out of time), 130 interrupted.
 `seine COMMAND --help` tells more.)";
 
 /// One line on stderr, and with --json also an object on stdout.
@@ -34,8 +43,49 @@ int fail(const Invocation& invocation, std::string message, int status) {
   std::replace(message.begin(), message.end(), '\n', ' ');
   message = seine::io::printable(message, kLongest);
   std::fprintf(stderr, "seine: %s\n", message.c_str());
-  if (invocation.json) std::fputs(seine::io::failure_json(message).c_str(), stdout);
+  if (invocation.json && !seine::io::write_all(STDOUT_FILENO, seine::io::failure_json(message)))
+    return seine::app::kWrong;
   return status;
+}
+
+/// What is wrong with the command line: the word that is unknown, with the nearest that is not.
+std::string wrong_usage(CLI::App& program, int argc, char** argv, const std::string& usual) {
+  constexpr const char* kHelp = " (try --help)";
+  if (argc < 2) return usual + kHelp;
+  const std::string first = argv[1];
+  const std::vector<CLI::App*> commands = program.get_subcommands({});
+  const auto found =
+      std::ranges::find(commands, first, [](const CLI::App* known) { return known->get_name(); });
+  const CLI::App* command = found == commands.end() ? nullptr : *found;
+  std::vector<std::string> names;
+  if (command == nullptr && !first.starts_with("-")) {
+    for (const CLI::App* known : commands) names.push_back(known->get_name());
+    return "there is no command '" + first + "'" +
+           seine::app::suggested(first, {names.begin(), names.end()}) + kHelp;
+  }
+  const CLI::App& asked = command != nullptr ? *command : program;
+  for (const CLI::Option* option : asked.get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = std::string(argv[i]).substr(0, std::string(argv[i]).find('='));
+    if (!word.starts_with("--") || word == "--" || std::ranges::find(names, word) != names.end()) continue;
+    return "there is no option '" + word + "'" + seine::io::did_you_mean(word, {names.begin(), names.end()}) +
+           kHelp;
+  }
+  return usual + kHelp;
+}
+
+/// Help or the version.
+int answered(CLI::App& program, const CLI::Success& answer) {
+  std::ostringstream out;
+  program.exit(answer, out, out);
+  try {
+    seine::app::print(out.str());
+  } catch (const seine::InputError& error) {
+    std::fprintf(stderr, "seine: %s\n", error.what());
+    return seine::app::kWrong;
+  }
+  return seine::app::kDone;
 }
 
 int run(const Invocation& invocation) {
@@ -76,6 +126,7 @@ int main(int argc, char** argv) {
   program.require_subcommand(1);
   Invocation invocation;
   seine::app::add_plan(program, invocation);
+  seine::app::add_check(program, invocation);
   seine::app::add_certify(program, invocation);
   seine::app::add_simulate(program, invocation);
   seine::app::add_plot(program, invocation);
@@ -85,9 +136,9 @@ int main(int argc, char** argv) {
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& answer) {  // --help, --version
-    return program.exit(answer);
+    return answered(program, answer);
   } catch (const CLI::ParseError& error) {
-    return fail(invocation, error.what() + std::string(" (try --help)"), seine::app::kWrong);
+    return fail(invocation, wrong_usage(program, argc, argv, error.what()), seine::app::kWrong);
   }
   limit_memory();
   seine::app::end_on_interrupt();

@@ -1,7 +1,7 @@
 // seine plan: from a scenario to a certified plan.
 #include <algorithm>
 #include <cstdint>
-#include <iostream>
+#include <cstdio>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "apps/seine/command.hpp"
+#include "apps/seine/interrupt.hpp"
+#include "apps/seine/output.hpp"
 #include "apps/seine/progress_line.hpp"
 #include "apps/seine/summary.hpp"
 #include "seine/base/error.hpp"
@@ -33,7 +35,8 @@ struct Arguments {
 
 constexpr const char* kFooter =
     R"(All cars are planned together. What is written has been proved in continuous time; where no such plan was found, nothing
-is written and the exit status is 1.
+is written and the exit status is 1. Ctrl-C ends it: with -o or --json the best certified plan so far is given out, and the
+exit status is 130.
 Examples
   seine plan team.yaml -o plan.json
   seine plan team.yaml --deadline 0.5 --json     the best certified plan within half a second, as numbers
@@ -59,34 +62,51 @@ planner::PlanResult plan(const world::Scenario& scenario, const Arguments& argum
   return baseline::letter::plan(scenario, options, settings);
 }
 
+std::string told(const world::Scenario& scenario, const planner::PlanResult& result,
+                 const Arguments& arguments) {
+  std::string text = summary(scenario, result);
+  if (result.certified && !arguments.output.empty() && !is_stdout(arguments.output))
+    text += "  written to     " + arguments.output + "\n";
+  return text;
+}
+
 int run(const Arguments& arguments, bool json) {
   if (arguments.cusp_speed && arguments.method != "letter")
     throw InputError("--cusp-speed belongs to --method letter: cars of the method " + arguments.method +
                      " come to rest");
-  expect_writable(arguments.output);
-  const world::Scenario scenario = arguments.scenario.load();
+  if (json && is_stdout(arguments.output))
+    throw InputError("--json and -o " + arguments.output + " both go to stdout, expected one of them");
+  io::Reading reading;
+  const world::Scenario scenario = arguments.scenario.load(reading);
+  expect_writable(arguments.output, reading);
   ProgressLine line;
   planner::Options options{.deadline_s = arguments.deadline,
                            .threads = arguments.threads,
                            .seed = arguments.seed,
+                           .cancelled = nullptr,
                            .without = ablation_of(arguments.without),
                            .progress = {}};
   options.progress = [&line](const planner::Progress& progress) {
     line.update(progress.stage, progress.fraction);
   };
-  const planner::PlanResult result = plan(scenario, arguments, options);
+  // Who asked for a plan to keep gets what there is by then.
+  if (json || !arguments.output.empty()) options.cancelled = &wind_up_on_interrupt();
+  planner::PlanResult result = with_places(reading, [&] { return plan(scenario, arguments, options); });
   line.clear();
-  const bool written = result.certified && !arguments.output.empty();
-  if (written) {
-    io::save_plan(scenario, result, arguments.output,
-                  {.method = arguments.method,
-                   .seed = arguments.seed,
-                   .threads = arguments.threads,
-                   .deadline_s = arguments.deadline});
+  const int interrupted = interrupted_status();
+  if (interrupted != 0) std::fputs("seine: interrupted\n", stderr);
+  if (interrupted != 0 && !result.certified) result.reason = "interrupted before there was a certified plan";
+  if (result.certified && !arguments.output.empty()) {
+    write_output(arguments.output, io::plan_text(scenario, result,
+                                                 {.method = arguments.method,
+                                                  .seed = arguments.seed,
+                                                  .threads = arguments.threads,
+                                                  .deadline_s = arguments.deadline}));
   }
-  std::cout << (json ? io::report_json(scenario, result) : summary(scenario, result));
-  if (!json && result.certified && !arguments.output.empty())
-    std::cout << "  written to     " << arguments.output << "\n";
+  if (json) print(io::report_json(scenario, result));
+  if (!json && (result.certified || interrupted == 0))
+    tell(told(scenario, result, arguments), arguments.output);
+  if (interrupted != 0) return interrupted;
   return result.certified ? kDone : kNo;
 }
 
@@ -97,7 +117,7 @@ void add_plan(CLI::App& program, Invocation& invocation) {
   command.footer(kFooter);
   const auto arguments = std::make_shared<Arguments>();
   add_scenario(command, arguments->scenario);
-  command.add_option("-o,--output", arguments->output, "where the plan goes, plan.json");
+  command.add_option("-o,--output", arguments->output, "where the plan goes, plan.json; -: stdout");
   command
       .add_option("--deadline", arguments->deadline, "seconds of wall time; the best certified plan by then")
       ->check(kPositive);
@@ -106,7 +126,7 @@ void add_plan(CLI::App& program, Invocation& invocation) {
   command
       .add_option("--method", arguments->method,
                   "joint: all cars optimised together; letter: the planner of Pei et al. 2024 as printed")
-      ->check(CLI::IsMember({"joint", "letter"}))
+      ->check(word_of({"joint", "letter"}))
       ->capture_default_str();
   command
       .add_option("--cusp-speed", arguments->cusp_speed,
@@ -117,7 +137,7 @@ void add_plan(CLI::App& program, Invocation& invocation) {
                   "parts of the method to leave out, to see what they bring: catch, size, topology, "
                   "relaxation, cusps (teams with a net; the certificate still asks for everything)")
       ->delimiter(',')
-      ->check(CLI::IsMember({"catch", "size", "topology", "relaxation", "cusps"}));
+      ->check(word_of({"catch", "size", "topology", "relaxation", "cusps"}));
   add_json(command, invocation);
   command.callback([&invocation, arguments] {
     invocation.run = [arguments, &invocation] { return run(*arguments, invocation.json); };

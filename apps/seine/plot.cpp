@@ -1,8 +1,10 @@
 // seine plot: a picture of a task, or of a plan for it.
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "apps/seine/command.hpp"
+#include "apps/seine/output.hpp"
 #include "seine/io/plan_file.hpp"
 #include "seine/io/svg.hpp"
 
@@ -23,16 +25,16 @@ Examples
   seine plot team.yaml -o task.svg               the task alone)";
 
 int run(const Arguments& arguments) {
-  expect_writable(arguments.output);
-  const world::Scenario scenario = arguments.scenario.load();
+  io::Reading reading;
+  const world::Scenario scenario = arguments.scenario.load(reading);
   const io::SvgOptions options{.whole = arguments.whole, .title = {}, .note = {}};
-  if (arguments.plan.empty()) {
-    io::write_svg(scenario, arguments.output, options);
-    return kDone;
+  std::optional<io::PlanFile> plan;
+  if (!arguments.plan.empty()) {
+    plan = io::load_plan(input_path(arguments.plan), &reading);
+    io::expect_same_team(scenario, *plan, arguments.plan);
   }
-  const io::PlanFile plan = io::load_plan(arguments.plan);
-  io::expect_same_team(scenario, plan, arguments.plan);
-  io::write_svg(scenario, plan.plan, arguments.output, options);
+  expect_writable(arguments.output, reading);
+  write_output(arguments.output, io::svg_text(scenario, plan ? &plan->plan : nullptr, options));
   return kDone;
 }
 
@@ -44,7 +46,7 @@ void add_plot(CLI::App& program, Invocation& invocation) {
   const auto arguments = std::make_shared<Arguments>();
   add_scenario(command, arguments->scenario);
   command.add_option("PLAN", arguments->plan, "plan.json");
-  command.add_option("-o,--output", arguments->output, "the picture, *.svg")->required();
+  command.add_option("-o,--output", arguments->output, "the picture, *.svg; -: on stdout")->required();
   command.add_flag("--whole", arguments->whole, "all of a large map, also where nobody drives");
   command.callback([&invocation, arguments] { invocation.run = [arguments] { return run(*arguments); }; });
 }

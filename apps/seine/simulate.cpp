@@ -2,9 +2,9 @@
 #include "seine/sim/simulation.hpp"
 
 #include <filesystem>
-#include <iostream>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -12,12 +12,12 @@
 
 #include "apps/seine/command.hpp"
 #include "apps/seine/faults.hpp"
+#include "apps/seine/output.hpp"
 #include "apps/seine/progress_line.hpp"
 #include "apps/seine/summary.hpp"
 #include "seine/base/error.hpp"
 #include "seine/drive/replanner.hpp"
 #include "seine/drive/tracking.hpp"
-#include "seine/io/file_bytes.hpp"
 #include "seine/io/plan_file.hpp"
 #include "seine/io/report.hpp"
 #include "seine/planner/planner.hpp"
@@ -44,7 +44,7 @@ constexpr const char* kFooter =
     R"(The cars follow the plan with model predictive control, through delay, slip and errors of what they know; net and objects
 are simulated as bodies. "Caught" is what happened: at rest in the net within 2.5 s of the rim. Only certified plans are driven:
 without plan.json it is planned first, and a plan.json is proved first. Exit status 0: everything that was asked for
-happened; 1: it did not, or there is no certified plan.
+happened; 1: it did not, or there is no certified plan; 3: the plan.json given could not be proved in time.
 Noise
   none   ideal cars and sensors       low   a laboratory with motion capture
   high   cars that find their way with their own sensors
@@ -61,7 +61,10 @@ class Log {
  public:
   explicit Log(std::string path) : path_(std::move(path)) {
     if (path_.empty()) return;
-    expect_writable(path_);
+    if (is_stdout(path_)) {
+      recorder_ = std::make_unique<sim::CsvLog>(text_);
+      return;
+    }
     const std::filesystem::path extension = std::filesystem::path(path_).extension();
     if (extension == ".csv") {
       recorder_ = std::make_unique<sim::CsvLog>(text_);
@@ -73,7 +76,7 @@ class Log {
   }
   sim::Recorder* recorder() const { return recorder_.get(); }
   void write() const {
-    if (recorder_) io::write_file(path_, text_.view());
+    if (recorder_) write_output(path_, text_.view());
   }
 
  private:
@@ -93,9 +96,8 @@ planner::PlanResult make_plan(const Arguments& arguments, const world::Scenario&
 }
 
 /// A plan from a file, proved anew.
-planner::PlanResult load_plan(const Arguments& arguments, const world::Scenario& scenario) {
-  io::PlanFile file = io::load_plan(arguments.plan);
-  io::expect_same_team(scenario, file, arguments.plan);
+planner::PlanResult prove_plan(const Arguments& arguments, const world::Scenario& scenario,
+                               io::PlanFile file) {
   const world::StaticMap map(scenario);
   planner::PlanResult result{.plan = std::move(file.plan)};
   result.certificate = certify::certify(
@@ -122,23 +124,38 @@ sim::SimulationResult drive_plan(const Arguments& arguments, const world::Scenar
 
 int run(const Arguments& arguments, bool json) {
   const Log log(arguments.log);
-  const world::Scenario scenario = arguments.scenario.load();
+  if (json && is_stdout(arguments.log))
+    throw InputError("--json and --log " + arguments.log + " both go to stdout, expected one of them");
+  io::Reading reading;
+  const world::Scenario scenario = arguments.scenario.load(reading);
+  std::optional<io::PlanFile> file;
+  if (!arguments.plan.empty()) {
+    file = io::load_plan(input_path(arguments.plan), &reading);
+    io::expect_same_team(scenario, *file, arguments.plan);
+  }
+  expect_writable(arguments.log, reading);
   parse_faults(arguments.faults, scenario);  // complaints come before the work
   ProgressLine line;
-  const planner::PlanResult plan =
-      arguments.plan.empty() ? make_plan(arguments, scenario, line) : load_plan(arguments, scenario);
+  const planner::PlanResult plan = with_places(reading, [&] {
+    return file ? prove_plan(arguments, scenario, std::move(*file)) : make_plan(arguments, scenario, line);
+  });
   if (!plan.certified) {
     line.clear();
-    std::cout << (json                     ? io::report_json(scenario, plan)
-                  : arguments.plan.empty() ? summary(scenario, plan)
-                                           : summary(scenario, plan.certificate));
-    return kNo;
+    if (json) {
+      print(io::report_json(scenario, plan));
+    } else {
+      tell(arguments.plan.empty() ? summary(scenario, plan) : summary(scenario, plan.certificate),
+           arguments.log);
+    }
+    return !arguments.plan.empty() && plan.certificate.verdict() == certify::Verdict::undecided ? kUndecided : kNo;
   }
   const sim::SimulationResult driven = drive_plan(arguments, scenario, plan.plan, log.recorder(), line);
   line.clear();
   log.write();
-  std::cout << (json ? io::report_json(scenario, plan, driven) : summary(scenario, driven));
-  if (!json && log.recorder() != nullptr) std::cout << "  written to     " << arguments.log << "\n";
+  std::string text = json ? io::report_json(scenario, plan, driven) : summary(scenario, driven);
+  if (!json && log.recorder() != nullptr && !is_stdout(arguments.log))
+    text += "  written to     " + arguments.log + "\n";
+  tell(text, arguments.log);
   return driven.done() ? kDone : kNo;
 }
 
@@ -151,14 +168,14 @@ void add_simulate(CLI::App& program, Invocation& invocation) {
   add_scenario(command, arguments->scenario);
   command.add_option("PLAN", arguments->plan, "plan.json; without it the task is planned first");
   command.add_option("--noise", arguments->noise, "none, low or high")
-      ->check(CLI::IsMember({"none", "low", "high"}))
+      ->check(word_of({"none", "low", "high"}))
       ->capture_default_str();
   command.add_flag("--replan", arguments->replan,
                    "new plans on the way, from where the team is to where the target is seen to fly");
   add_seed(command, arguments->seed, "for what is drawn: noise, and choices of the planner");
   command.add_option("--fault", arguments->faults, "something that goes wrong, see below")
       ->allow_extra_args(false);
-  command.add_option("--log", arguments->log, "every signal, *.csv or *.mcap");
+  command.add_option("--log", arguments->log, "every signal, *.csv or *.mcap; -: CSV on stdout");
   command
       .add_option("--deadline", arguments->deadline,
                   "seconds of wall time for the plan that is made, or for the proof of the one given")

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <stdexcept>
+#include <system_error>
+#include <utility>
 
 namespace seine {
 namespace {
@@ -27,10 +28,21 @@ void pause_briefly() {
 
 Workers::Workers(int threads) {
   if (threads <= 0) threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  for (int i = 1; i < threads; ++i) threads_.emplace_back([this] { loop(); });
+  try {
+    threads_.reserve(static_cast<std::size_t>(threads - 1));
+    for (int i = 1; i < threads; ++i) threads_.emplace_back([this] { loop(); });
+  } catch (const std::system_error&) {  // no more threads to be had: those there are do the work
+  } catch (...) {
+    stop();
+    throw;
+  }
 }
 
 Workers::~Workers() {
+  stop();
+}
+
+void Workers::stop() {
   {
     const std::lock_guard lock(mutex_);
     stop_ = true;
@@ -40,11 +52,16 @@ Workers::~Workers() {
 }
 
 void Workers::dispatch(int count, void* context, Call call) {
-  if (static_cast<std::uint64_t>(count) > kIndexMask)
-    throw std::length_error("too many indices for one round");
+  constexpr int kMost = static_cast<int>(kIndexMask);
+  for (int first = 0; first < count; first += std::min(kMost, count - first))
+    round(first, std::min(kMost, count - first), context, call);
+}
+
+void Workers::round(int first, int count, void* context, Call call) {
   const std::uint64_t round = round_.load() + 1;
   context_ = context;
   call_ = call;
+  first_ = first;
   unfinished_ = count;
   word_ = ((round & kRoundMask) << kRoundShift) | (static_cast<std::uint64_t>(count) << kIndexBits);
   {
@@ -54,6 +71,7 @@ void Workers::dispatch(int count, void* context, Call call) {
   wake_.notify_all();
   take(round);
   while (unfinished_.load(std::memory_order_acquire) > 0) pause_briefly();
+  if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
 }
 
 // A successful exchange proves that the round was still this one and had an index left; until that index is
@@ -64,7 +82,12 @@ void Workers::take(std::uint64_t round) {
     const std::uint64_t index = seen & kIndexMask, count = (seen >> kIndexBits) & kIndexMask;
     if ((seen >> kRoundShift) != (round & kRoundMask) || index >= count) return;
     if (!word_.compare_exchange_weak(seen, seen + 1)) continue;
-    call_.load()(context_.load(), static_cast<int>(index));
+    try {
+      call_.load()(context_.load(), first_.load() + static_cast<int>(index));
+    } catch (...) {
+      const std::lock_guard lock(failure_mutex_);
+      if (!failure_) failure_ = std::current_exception();
+    }
     unfinished_.fetch_sub(1, std::memory_order_acq_rel);
   }
 }

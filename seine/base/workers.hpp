@@ -3,6 +3,7 @@
 #include <atomic>
 #include <condition_variable>
 #include <cstdint>
+#include <exception>
 #include <mutex>
 #include <thread>
 #include <type_traits>
@@ -12,10 +13,12 @@ namespace seine {
 
 /// A few threads that run the same function over a range of indices, many thousand times a second. The
 /// calling thread works too. Which thread takes which index is left open: callers write to places that depend
-/// on the index only, so results never depend on the number of threads. The function must not throw.
+/// on the index only, so results never depend on the number of threads. What the function throws comes out of
+/// run, one of them where there are several; by then every index has had its turn.
 class Workers {
  public:
-  /// @param threads how many work at once, the caller included; 0 means as many as the machine has.
+  /// @param threads how many work at once, the caller included; 0 means as many as the machine has. Where the
+  /// system does not give as many, fewer do the work: count() says how many.
   explicit Workers(int threads);
   ~Workers();
   Workers(const Workers&) = delete;
@@ -37,7 +40,9 @@ class Workers {
  private:
   using Call = void (*)(void*, int);
   void dispatch(int count, void* context, Call call);
+  void round(int first, int count, void* context, Call call);
   void take(std::uint64_t round);
+  void stop();
   void loop();
 
   std::vector<std::thread> threads_;
@@ -49,6 +54,9 @@ class Workers {
   std::atomic<bool> stop_{false};
   std::atomic<void*> context_{nullptr};
   std::atomic<Call> call_{nullptr};
+  std::atomic<int> first_{0};  // of the indices of the round
+  std::mutex failure_mutex_;
+  std::exception_ptr failure_;  // what was thrown first in the round
   std::mutex mutex_;
   std::condition_variable wake_;
 };

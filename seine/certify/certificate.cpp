@@ -8,6 +8,7 @@
 #include "seine/certify/clearance.hpp"
 #include "seine/certify/form.hpp"
 #include "seine/certify/net_proof.hpp"
+#include "seine/world/check.hpp"
 
 namespace seine::certify {
 namespace {
@@ -111,7 +112,7 @@ class Proof {
     const double grain = kMovingGrain * shortest_car(context_.scenario);
     parts_.resize(obstacles.size());
     for (std::size_t i = 0; i < obstacles.size(); ++i) {
-      if (obstacles[i].motion.empty()) continue;
+      if (world::stands_still(obstacles[i])) continue;  // the map has them
       parts_[i] = parts_of(obstacles[i]);
       for (const geom::Convex& part : parts_[i]) {
         scene_.moving.push_back(
@@ -175,6 +176,15 @@ class Proof {
 
 }  // namespace
 
+const char* name_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::holds: return "certified";
+    case Verdict::refuted: return "refuted";
+    case Verdict::undecided: return "undecided";
+  }
+  return "";
+}
+
 Verdict Certificate::verdict() const {
   if (holds) return Verdict::holds;
   const bool open = std::all_of(violations.begin(), violations.end(),
@@ -184,6 +194,7 @@ Verdict Certificate::verdict() const {
 
 Certificate certify(const world::Scenario& scenario, const world::StaticMap& map,
                     const traj::TeamTrajectory& plan, const Options& options) {
+  world::expect_numbers(scenario);
   const Stopwatch watch;
   Certificate certificate;
   Context context{scenario, map, options};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <string>
 #include <vector>
@@ -43,7 +44,7 @@ enum class Kind {
   braking,       ///< a car brakes or accelerates too hard for what lies in the net
   carrying,      ///< a car drives so fast that the air may blow what lies in the net out of it
   delivery,      ///< the team does not come to rest where it must
-  undecided,     ///< the proof ran out of its deadline or its depth: the plan does not hold
+  undecided,     ///< the proof ran out of its deadline or its depth: no proof, and no refutation
 };
 const char* name_of(Kind kind);
 
@@ -82,6 +83,8 @@ enum class Verdict {
   refuted,    ///< something is broken, and `violations` says what
   undecided,  ///< neither: time or depth ran out, and nothing broken was met until then
 };
+/// "certified", "refuted" or "undecided".
+const char* name_of(Verdict verdict);
 
 /// The verdict on one plan.
 struct Certificate {

@@ -33,7 +33,8 @@ geom::Box bounds_of(const world::Scenario& scenario, geom::Vec2 size) {
 
 }  // namespace
 
-world::Scenario read_clmapf(const YamlValue& root, const std::string& name, const vehicle::Model& car) {
+world::Scenario read_clmapf(const YamlValue& root, const std::string& name, const vehicle::Model& car,
+                            Reading* reading) {
   const YamlMap top = root.map({"agents", "map"});
   world::Scenario scenario;
   scenario.name = name;
@@ -48,6 +49,7 @@ world::Scenario read_clmapf(const YamlValue& root, const std::string& name, cons
                        .goal = read_pose(map.at("goal"))};
     if (!names.insert(robot.name).second) agent.fail("is called '" + robot.name + "' like another agent");
     scenario.robots.push_back(std::move(robot));
+    if (reading != nullptr) reading->robots.push_back({map.at("start").where(), map.at("goal").where()});
   }
   const YamlMap map = top.at("map").map({"dimensions", "obstacles"});
   const std::vector<double> size = map.at("dimensions").numbers(2, {1e-3, 1e6});

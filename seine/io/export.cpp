@@ -55,27 +55,20 @@ std::string file_part(const std::string& name) {
   return out;
 }
 
-std::vector<std::filesystem::path> write_tum(const world::Scenario& scenario,
-                                             const traj::TeamTrajectory& plan, double rate,
-                                             const std::filesystem::path& path) {
-  std::vector<std::filesystem::path> written;
-  std::set<std::string> taken;
-  for (std::size_t k = 0; k < plan.robots.size(); ++k) {
-    std::filesystem::path file = path;
-    if (plan.robots.size() > 1) {
-      std::string part = file_part(scenario.robots[k].name);
-      if (!taken.insert(part).second) taken.insert(part += joined("-", k));
-      file.replace_filename(joined(path.stem().string(), "-", part, path.extension().string()));
-    }
-    write_file(file, states_tum(plan.robots[k], plan.makespan(), rate));
-    written.push_back(file);
+void expect_rate(const world::Scenario& scenario, const traj::TeamTrajectory& plan, double rate) {
+  if (plan.robots.size() != scenario.robots.size()) {
+    throw InputError(joined("cannot be exported: the plan is for ", plan.robots.size(), " robots, expected ",
+                            scenario.robots.size()));
   }
-  return written;
+  if (!(rate > 0.0) || !std::isfinite(rate)) throw InputError("the rate is no positive number of hertz");
+  if ((plan.makespan() * rate + 2.0) * static_cast<double>(plan.robots.size()) > kMostRows)
+    throw InputError(joined("the rate ", number_text(rate), " Hz makes more than 20 million rows"));
 }
 
 }  // namespace
 
 std::string states_csv(const world::Scenario& scenario, const traj::TeamTrajectory& plan, double rate) {
+  expect_rate(scenario, plan, rate);
   std::string out = "robot,t,x,y,heading,speed,acceleration,steering\n";
   const double makespan = plan.makespan();
   for (std::size_t k = 0; k < plan.robots.size(); ++k) {
@@ -124,28 +117,37 @@ std::string clmapf_schedule(const world::Scenario& scenario, const traj::TeamTra
   return out;
 }
 
+std::vector<std::filesystem::path> exported_files(const world::Scenario& scenario,
+                                                  const std::filesystem::path& path) {
+  if (path.extension() != ".tum" || scenario.robots.size() < 2) return {path};
+  std::vector<std::filesystem::path> files;
+  std::set<std::string> taken;
+  for (std::size_t k = 0; k < scenario.robots.size(); ++k) {
+    std::string part = file_part(scenario.robots[k].name);
+    if (!taken.insert(part).second) taken.insert(part += joined("-", k));
+    files.push_back(path);
+    files.back().replace_filename(joined(path.stem().string(), "-", part, path.extension().string()));
+  }
+  return files;
+}
+
 std::vector<std::filesystem::path> export_plan(const world::Scenario& scenario,
                                                const traj::TeamTrajectory& plan, double rate,
                                                const std::filesystem::path& path) {
-  if (plan.robots.size() != scenario.robots.size()) {
-    throw complaint(path.string(), 0,
-                    joined("cannot be written: the plan is for ", plan.robots.size(), " robots, expected ",
-                           scenario.robots.size()));
-  }
-  if (!(rate > 0.0) || !std::isfinite(rate)) throw InputError("the rate is no positive number of hertz");
-  if ((plan.makespan() * rate + 2.0) * static_cast<double>(plan.robots.size()) > kMostRows) {
-    throw InputError(joined("the rate ", number_text(rate), " Hz makes more than 20 million rows"));
-  }
+  expect_rate(scenario, plan, rate);
   const std::string extension = path.extension().string();
-  if (extension == ".tum") return write_tum(scenario, plan, rate, path);
-  if (extension == ".csv") {
+  const std::vector<std::filesystem::path> files = exported_files(scenario, path);
+  if (extension == ".tum") {
+    for (std::size_t k = 0; k < files.size(); ++k)
+      write_file(files[k], states_tum(plan.robots[k], plan.makespan(), rate));
+  } else if (extension == ".csv") {
     write_file(path, states_csv(scenario, plan, rate));
   } else if (extension == ".yaml" || extension == ".yml") {
     write_file(path, clmapf_schedule(scenario, plan, rate));
   } else {
     throw complaint(path.string(), 0, "has an unknown ending, expected .csv, .tum or .yaml");
   }
-  return {path};
+  return files;
 }
 
 }  // namespace seine::io

@@ -23,6 +23,10 @@ std::string states_tum(const traj::RobotTrajectory& robot, double makespan, doub
 /// arrivals) in seconds.
 std::string clmapf_schedule(const world::Scenario& scenario, const traj::TeamTrajectory& plan, double rate);
 
+/// The files that export_plan writes for this name.
+std::vector<std::filesystem::path> exported_files(const world::Scenario& scenario,
+                                                  const std::filesystem::path& path);
+
 /// By the name: `.csv`, `.yaml` (CL-MAPF schedule) or `.tum` (one file a robot, `out-<robot>.tum`, where
 /// there are several). Returns the files written. Throws InputError for another name, a rate that is not
 /// positive or more than 20 million rows.

@@ -15,16 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void write_directly(const fs::path& path, std::string_view content, const fs::path& shown) {
-  errno = 0;
-  std::ofstream out(path, std::ios::binary | std::ios::trunc);
-  out.write(content.data(), static_cast<std::streamsize>(content.size()));
-  out.close();
-  if (out) return;
-  const std::string why = errno != 0 ? std::strerror(errno) : "write failed";
-  throw complaint(shown.string(), 0, "cannot be written: " + why);
-}
-
 }  // namespace
 
 std::string read_file(const fs::path& path, std::size_t limit) {
@@ -55,30 +45,19 @@ std::string read_file(const fs::path& path, std::size_t limit) {
   return content;
 }
 
-std::string_view without_mark(std::string_view text) {
-  return text.starts_with("\xef\xbb\xbf") ? text.substr(3) : text;
+std::string with_line_ends(std::string_view text) {
+  std::string out(text);
+  for (std::size_t i = 0; i < out.size(); ++i)
+    if (out[i] == '\r' && (i + 1 == out.size() || out[i + 1] != '\n')) out[i] = '\n';
+  return out;
 }
 
-void write_file(const fs::path& path, std::string_view content) {
-  std::error_code error;
-  const fs::file_status status = fs::status(path, error);
-  if (fs::is_directory(status)) throw complaint(path.string(), 0, "is a directory, expected a file name");
-  if (fs::exists(status) && !fs::is_regular_file(status)) return write_directly(path, content, path);
-  // A symbolic link keeps pointing where it does: its target is what is replaced.
-  fs::path target = fs::is_regular_file(status) ? fs::canonical(path, error) : path;
-  if (error) target = path;
-  fs::path draft = target;
-  draft += ".part" + std::to_string(::getpid());
-  try {
-    write_directly(draft, content, path);
-    fs::rename(draft, target);
-  } catch (const fs::filesystem_error& failure) {
-    fs::remove(draft, error);
-    throw complaint(path.string(), 0, "cannot be written: " + failure.code().message());
-  } catch (...) {
-    fs::remove(draft, error);
-    throw;
-  }
+std::string why_unreadable(const fs::path& path) {
+  return ::access(path.c_str(), R_OK) == 0 ? "" : std::strerror(errno);
+}
+
+std::string_view without_mark(std::string_view text) {
+  return text.starts_with("\xef\xbb\xbf") ? text.substr(3) : text;
 }
 
 }  // namespace seine::io

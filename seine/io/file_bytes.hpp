@@ -11,11 +11,21 @@ namespace seine::io {
 /// bytes.
 std::string read_file(const std::filesystem::path& path, std::size_t limit);
 
+/// A text whose lines end with '\n': old programs end them with '\r' alone.
+std::string with_line_ends(std::string_view text);
+
+/// Why that file cannot be read ("No such file or directory"); empty when it can.
+std::string why_unreadable(const std::filesystem::path& path);
+
 /// A text without the byte order mark (UTF-8) that some programs write at its beginning.
 std::string_view without_mark(std::string_view text);
 
-/// Writes all of `content` or nothing: into a neighbour file first, then renamed over `path`. Where `path` is
-/// no regular file (a pipe, a terminal) it is written directly. Throws InputError when that fails.
+/// Writes all of `content` or nothing. A file that is replaced keeps its mode, its owner and all its names
+/// (symbolic and hard links); an interrupted write leaves nothing behind. Where `path` is no regular file (a
+/// pipe, a terminal) it is written directly. Throws InputError when that fails.
 void write_file(const std::filesystem::path& path, std::string_view content);
+
+/// Writes to an open file, all of it. False, with errno, when that fails.
+bool write_all(int file, std::string_view content);
 
 }  // namespace seine::io

@@ -1,5 +1,6 @@
 #include "seine/io/map_file.hpp"
 
+#include "seine/geom/grid_check.hpp"
 #include "seine/io/file_bytes.hpp"
 #include "seine/io/message.hpp"
 #include "seine/io/number_text.hpp"
@@ -21,8 +22,8 @@ bool read_flag(const YamlValue& value) {
 
 geom::Pose2 read_origin(const YamlValue& value) {
   const std::size_t count = value.list(2, 3).size();
-  const std::vector<double> xyh = value.numbers(count, kCoordinate);
-  return {xyh[0], xyh[1], count == 3 ? geom::wrap_angle(xyh[2]) : 0.0};
+  const std::vector<YamlValue> xyh = value.list(count, count);
+  return {xyh[0].number(kCoordinate), xyh[1].number(kCoordinate), count == 3 ? xyh[2].heading() : 0.0};
 }
 
 /// The next line of `text`, taken off it, without its end.
@@ -49,9 +50,10 @@ int read_count(std::string_view line, std::string_view key, const std::string& f
 
 MapHeader parse_map_header(std::string_view text, const std::string& file) {
   // Keys of other programs may stand in it: this format is not ours.
-  const YamlMap map = YamlValue::parse(without_mark(text), file).open_map();
+  const YamlMap map = YamlValue::parse(with_line_ends(without_mark(text)), file).open_map();
   MapHeader header;
   header.image = map.at("image").text();
+  header.image_line = map.at("image").line();
   header.resolution = map.at("resolution").number({1e-4, 1e3});
   header.origin = read_origin(map.at("origin"));
   if (const auto negate = map.find("negate")) header.negate = read_flag(*negate);
@@ -81,7 +83,8 @@ geom::OccupancyGrid grid_from_image(const GreyImage& image, const MapHeader& hea
 }
 
 geom::OccupancyGrid parse_movingai(std::string_view text, const std::string& file) {
-  text = without_mark(text);
+  const std::string lines = with_line_ends(without_mark(text));
+  text = lines;
   if (take_line(text).substr(0, 5) != "type ")
     throw complaint(file, 1, "is no MovingAI map, expected 'type octile'");
   geom::OccupancyGrid grid;
@@ -109,14 +112,21 @@ geom::OccupancyGrid parse_movingai(std::string_view text, const std::string& fil
   return grid;
 }
 
-geom::OccupancyGrid load_map(const std::filesystem::path& path) {
+geom::OccupancyGrid load_map(const std::filesystem::path& path, Reading* reading) {
+  if (reading != nullptr) reading->add_file(path);
   if (path.extension() == ".map") return parse_movingai(read_file(path, kPictureBytes), path.string());
   const MapHeader header = parse_map_header(read_file(path, kHeaderBytes), path.string());
   const std::filesystem::path picture = path.parent_path() / header.image;
+  if (const std::string why = why_unreadable(picture); !why.empty()) {
+    throw complaint(path.string(), header.image_line,
+                    joined("'image' is '", header.image, "', which cannot be read: ", why));
+  }
+  if (reading != nullptr) reading->add_file(picture);
   return grid_from_image(decode_image(read_file(picture, kPictureBytes), picture.string()), header);
 }
 
 void save_map(const geom::OccupancyGrid& grid, const std::filesystem::path& path) {
+  if (!geom::is_complete(grid)) throw InputError("the map has not the cells that its width and height say");
   std::filesystem::path picture = path;
   picture.replace_extension(".pgm");
   std::string pixels = "P5\n" + std::to_string(grid.width) + " " + std::to_string(grid.height) + "\n255\n";

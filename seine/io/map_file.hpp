@@ -6,16 +6,19 @@
 
 #include "seine/geom/grid.hpp"
 #include "seine/io/image.hpp"
+#include "seine/io/reading.hpp"
 
 namespace seine::io {
 
 /// A ROS map_server map (`*.yaml` beside a PGM or PNG picture), or a MovingAI grid (`*.map`, one metre a
 /// cell, lower-left corner at the origin). Occupied and unknown cells are obstacles. Throws InputError.
-geom::OccupancyGrid load_map(const std::filesystem::path& path);
+/// @param reading gets the files that are read, where it is given
+geom::OccupancyGrid load_map(const std::filesystem::path& path, Reading* reading = nullptr);
 
 /// What a map_server YAML file says.
 struct MapHeader {
   std::string image;             ///< path of the picture, relative to the file
+  int image_line = 0;            ///< where the file names it, 1-based
   double resolution = 0.05;      ///< m per pixel
   geom::Pose2 origin;            ///< pose of the lower-left corner of the lower-left pixel
   bool negate = false;           ///< white is occupied

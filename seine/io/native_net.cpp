@@ -202,7 +202,7 @@ net::Delivery read_delivery(const YamlValue& value) {
   const std::vector<double> center = map.at("center").numbers(2, kCoordinate);
   delivery.center = {center[0], center[1]};
   delivery.radius = map.number("radius", kSize, delivery.radius);
-  if (const auto heading = map.find("heading")) delivery.heading = geom::wrap_angle(heading->number(kAngle));
+  if (const auto heading = map.find("heading")) delivery.heading = heading->heading();
   return delivery;
 }
 

@@ -6,11 +6,13 @@
 
 #include "seine/geom/convex.hpp"
 #include "seine/geom/polygon.hpp"
+#include "seine/io/file_bytes.hpp"
 #include "seine/io/map_file.hpp"
 #include "seine/io/message.hpp"
 #include "seine/io/number_text.hpp"
 #include "seine/io/scenario_file.hpp"
 #include "seine/io/scenario_formats.hpp"
+#include "seine/io/suggestion.hpp"
 #include "seine/world/granted_speed.hpp"
 
 namespace seine::io {
@@ -37,8 +39,7 @@ std::vector<Vec2> read_polygon(const YamlValue& value) {
 }
 
 geom::Pose2 read_pose(const YamlMap& map) {
-  return {map.at("x").number(kCoordinate), map.at("y").number(kCoordinate),
-          geom::wrap_angle(map.at("heading").number(kAngle))};
+  return {map.at("x").number(kCoordinate), map.at("y").number(kCoordinate), map.at("heading").heading()};
 }
 
 /// The hull of a footprint that is convex but for rounding: of vertices on a straight side, and the like.
@@ -80,7 +81,7 @@ vehicle::Limits read_limits(const YamlValue& value, vehicle::Limits limits) {
   limits.speed = map.number("speed", kRate, limits.speed);
   limits.reverse_speed = map.number("reverse_speed", {0.0, kRate.high}, limits.reverse_speed);
   limits.acceleration = map.number("acceleration", kRate, limits.acceleration);
-  limits.steering = map.number("steering", kSteering, limits.steering);
+  if (const auto steering = map.find("steering")) limits.steering = steering->angle(kSteering);
   if (const auto lateral = map.find("lateral_acceleration")) {
     limits.lateral_acceleration = lateral->number_or_infinity(kSideLimit);
   }
@@ -102,7 +103,7 @@ std::vector<world::Waypoint> read_motion(const YamlValue& value, std::size_t& ve
   for (const YamlValue& entry : value.list(1, vertices_left)) {
     const YamlMap map = entry.map({"t", "x", "y", "heading"});
     const geom::Pose2 pose{map.at("x").number(kCoordinate), map.at("y").number(kCoordinate),
-                           geom::wrap_angle(map.number("heading", kAngle, 0.0))};
+                           map.has("heading") ? map.at("heading").heading() : 0.0};
     motion.push_back({map.at("t").number({-1e6, 1e6}), pose});
     if (motion.size() > 1 && motion.back().t <= motion[motion.size() - 2].t) {
       entry.fail("has a time that is not after the one before, expected growing times");
@@ -156,10 +157,11 @@ bool read_outside(const YamlValue& value, const Scenario& scenario) {
   return text == "free";
 }
 
-void read_world(const YamlValue& value, const std::filesystem::path& folder, Scenario& scenario) {
+void read_world(const YamlValue& value, const std::filesystem::path& folder, Scenario& scenario,
+                Reading* reading) {
   const YamlMap map = value.map({"bounds", "map", "outside", "obstacles"});
   if (const auto file = map.find("map"); file && !file->is_null())
-    scenario.map = load_map(folder / file->text());
+    scenario.map = load_map(referred_file(*file, folder), reading);
   if (const auto outside = map.find("outside")) scenario.outside_free = read_outside(*outside, scenario);
   if (const auto bounds = map.find("bounds")) {
     const std::vector<double> b = bounds->numbers(4, kCoordinate);
@@ -193,7 +195,8 @@ int find_model(const Scenario& scenario, const YamlMap& robot) {
              ", expected a model of 'models'" + did_you_mean(wanted, known));
 }
 
-world::Robot read_robot(const YamlValue& value, std::size_t index, const Scenario& scenario, bool net) {
+world::Robot read_robot(const YamlValue& value, std::size_t index, const Scenario& scenario, bool net,
+                        Reading::Ends& ends) {
   const YamlMap map = value.map({"name", "model", "start", "goal"});
   world::Robot robot;
   const auto name = map.find("name");
@@ -201,6 +204,7 @@ world::Robot read_robot(const YamlValue& value, std::size_t index, const Scenari
   robot.model = find_model(scenario, map);
   const YamlMap start = map.at("start").map({"x", "y", "heading", "speed"});
   robot.start = read_pose(start);
+  ends = {start.self().where(), value.where()};
   robot.start_speed = start.number("speed", {-1e4, 1e4}, 0.0);
   const vehicle::Limits& limits = scenario.model_of(robot).limits;
   const std::optional<double> granted = world::granted_speed(limits, robot.start_speed);
@@ -212,16 +216,18 @@ world::Robot read_robot(const YamlValue& value, std::size_t index, const Scenari
   }
   robot.start_speed = *granted;
   const auto goal = map.find("goal");
-  if (goal) robot.goal = read_pose(goal->map({"x", "y", "heading"}));
+  if (goal) robot.goal = read_pose(goal->map({"x", "y", "heading"})), ends.goal = goal->where();
   if (!goal && !net) value.fail("has no 'goal', which is required for a team without a net");
   return robot;
 }
 
 /// @param net whether the team holds one: its robots may lack goals
-void read_robots(const YamlValue& value, Scenario& scenario, bool net) {
+void read_robots(const YamlValue& value, Scenario& scenario, bool net, Reading* reading) {
   std::unordered_set<std::string> names;
   for (const YamlValue& entry : value.list(1, ScenarioCaps::kRobots)) {
-    scenario.robots.push_back(read_robot(entry, scenario.robots.size(), scenario, net));
+    Reading::Ends ends;
+    scenario.robots.push_back(read_robot(entry, scenario.robots.size(), scenario, net, ends));
+    if (reading != nullptr) reading->robots.push_back(std::move(ends));
     const std::string& name = scenario.robots.back().name;
     if (!names.insert(name).second)
       entry.fail("is called '" + name + "' like another robot, expected distinct names");
@@ -252,27 +258,44 @@ std::vector<vehicle::Model> read_models(const std::optional<YamlValue>& value) {
   return models;
 }
 
+MarginChanges read_margins(const YamlValue& value) {
+  const YamlMap map = value.map({"robot", "obstacle", "leaving"});
+  const auto read = [&](std::string_view key) {
+    const auto given = map.find(key);
+    return given ? std::optional(given->number(kMargin)) : std::nullopt;
+  };
+  return {read("robot"), read("obstacle"), read("leaving")};
+}
+
+std::filesystem::path referred_file(const YamlValue& value, const std::filesystem::path& folder) {
+  std::filesystem::path path = folder / value.text();
+  if (const std::string why = why_unreadable(path); !why.empty())
+    value.fail(joined("is '", value.text(), "', which cannot be read: ", why));
+  return path;
+}
+
 void expect_version(const YamlMap& top) {
   const YamlValue version = top.at("seine");
   if (version.integer(0, 1000000) != 1) version.fail("is a format this version cannot read, expected 1");
 }
 
-Scenario read_native(const YamlValue& root, const std::string& name, const std::filesystem::path& folder) {
+Scenario read_native(const YamlValue& root, const std::string& name, const std::filesystem::path& folder,
+                     Reading* reading) {
   const YamlMap top = root.map(
       {"seine", "name", "world", "models", "margins", "robots", "net", "targets", "payload", "delivery"});
   expect_version(top);
   Scenario scenario;
   const auto given_name = top.find("name");
   scenario.name = given_name ? given_name->text() : name;
-  read_world(top.at("world"), folder, scenario);
+  read_world(top.at("world"), folder, scenario, reading);
   scenario.models = read_models(top.find("models"));
-  if (const auto margins = top.find("margins")) {
-    const YamlMap map = margins->map({"robot", "obstacle", "leaving"});
-    scenario.margins.robot = map.number("robot", kMargin, scenario.margins.robot);
-    scenario.margins.obstacle = map.number("obstacle", kMargin, scenario.margins.obstacle);
-    if (const auto leaving = map.find("leaving")) scenario.margins.leaving = leaving->number(kMargin);
+  if (const auto value = top.find("margins")) {
+    const MarginChanges margins = read_margins(*value);
+    scenario.margins.robot = margins.robot.value_or(scenario.margins.robot);
+    scenario.margins.obstacle = margins.obstacle.value_or(scenario.margins.obstacle);
+    scenario.margins.leaving = margins.leaving;
   }
-  read_robots(top.at("robots"), scenario, top.has("net"));
+  read_robots(top.at("robots"), scenario, top.has("net"), reading);
   read_net_keys(top, scenario);
   return scenario;
 }

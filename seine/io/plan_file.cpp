@@ -178,7 +178,8 @@ PlanFile parse_plan(std::string_view text, const std::string& file) {
   return plan;
 }
 
-PlanFile load_plan(const std::filesystem::path& path) {
+PlanFile load_plan(const std::filesystem::path& path, Reading* reading) {
+  if (reading != nullptr) reading->add_file(path);
   return parse_plan(read_file(path, kPlanBytes), path.string());
 }
 

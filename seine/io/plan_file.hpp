@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "seine/io/reading.hpp"
 #include "seine/planner/planner.hpp"
 #include "seine/traj/trajectory.hpp"
 #include "seine/world/fingerprint.hpp"
@@ -35,7 +36,8 @@ struct PlanFile {
 /// Throws InputError: with the line for a syntax error, else with the place, as in
 /// `robots[2].segments[0].gear`. Numbers may be any finite ones that make a trajectory (docs/plan-format.md);
 /// whether it keeps the limits is for the certificate to say.
-PlanFile load_plan(const std::filesystem::path& path);
+/// @param reading gets the file, where it is given
+PlanFile load_plan(const std::filesystem::path& path, Reading* reading = nullptr);
 /// @param file name for messages
 PlanFile parse_plan(std::string_view text, const std::string& file);
 

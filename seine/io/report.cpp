@@ -73,6 +73,10 @@ std::string report_json(const world::Scenario& scenario, const planner::PlanResu
   add_plan(scenario, result, result.times.compute > 0.0, object);
   if (!driven.outcomes.empty()) object.add("caught", driven.caught);
   object.add("delivered", driven.delivered);
+  // Who reads "delivered" must see beside it what happened on the way.
+  object.add("done", driven.done());
+  object.add("collision", !(driven.min_clearance > 0.0));
+  if (scenario.net) object.add("torn", driven.worst_stretch > 1.0);
   object.add("tracking_rms_m", driven.tracking_rms);
   object.add("replans", driven.replans);
   object.add("real_time_factor", driven.real_time_factor);
@@ -93,6 +97,7 @@ std::string report_json(const world::Scenario& scenario, const certify::Certific
                         const std::optional<std::vector<std::string>>& changed) {
   JsonObject object;
   object.add("certified", certificate.holds);
+  object.add("verdict", name_of(certificate.verdict()));
   object.add("reason", certificate.violations.empty() ? std::string() : certificate.violations.front().text);
   object.add("robots", static_cast<int>(scenario.robots.size()));
   object.add("certify_s", certificate.seconds);

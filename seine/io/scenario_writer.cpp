@@ -181,13 +181,20 @@ std::string scenario_text(const world::Scenario& scenario, const std::string& ma
   return out + net_keys_text(scenario);
 }
 
+std::vector<std::filesystem::path> saved_files(const world::Scenario& scenario,
+                                               const std::filesystem::path& path) {
+  if (!scenario.map) return {path};
+  const std::filesystem::path map = path.parent_path() / (path.stem().string() + "-map.yaml");
+  return {path, map, std::filesystem::path(map).replace_extension(".pgm")};
+}
+
 void save_scenario(const world::Scenario& scenario, const std::filesystem::path& path) {
-  std::filesystem::path map_file;
+  std::filesystem::path map;
   if (scenario.map) {
-    map_file = path.stem().string() + "-map.yaml";
-    save_map(*scenario.map, path.parent_path() / map_file);
+    map = saved_files(scenario, path)[1];
+    save_map(*scenario.map, map);
   }
-  write_file(path, scenario_text(scenario, map_file.string()));
+  write_file(path, scenario_text(scenario, map.filename().string()));
 }
 
 }  // namespace seine::io

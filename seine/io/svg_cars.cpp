@@ -92,7 +92,13 @@ std::string tick(const vehicle::Model& model, const SvgView& view) {
                 px(view.scale * (box.high.x - 0.08 * box.size().x)), "\"/>");
 }
 
-/// Above the car as it stands at its start.
+/// Whether a car at the one place covers, to the eye, the one at the other.
+bool hides(const geom::Pose2& a, const geom::Pose2& b, double length) {
+  constexpr double kPlace = 0.05, kTurn = 0.05;  // car lengths, rad
+  return geom::norm(a.position() - b.position()) < kPlace * length &&
+         std::abs(geom::wrap_angle(a.heading - b.heading)) < kTurn;
+}
+
 /// Above the car as it stands at its start.
 std::string name_label(const world::Robot& robot, const vehicle::Model& model, const SvgView& view) {
   geom::Box box;
@@ -154,9 +160,11 @@ std::string end_layer(const world::Scenario& scenario, const SvgView& view) {
     const world::Robot& robot = scenario.robots[k];
     const vehicle::Model& model = scenario.model_of(robot);
     const std::string colour = car_colour(k), line = joined(" stroke=\"", colour, "\"");
-    starts += car(robot.model, robot.start, view, line);
-    starts +=
-        joined("<g transform=\"", placement(robot.start, view), "\"", line, ">", tick(model, view), "</g>\n");
+    // Where the start would hide the goal it is filled like one.
+    const bool stays = robot.goal && hides(robot.start, *robot.goal, model.length());
+    starts += car(robot.model, robot.start, view, stays ? joined(line, " fill=\"", colour, "\"") : line);
+    starts += joined("<g transform=\"", placement(robot.start, view), "\"",
+                     stays ? std::string(" stroke=\"#fff\"") : line, ">", tick(model, view), "</g>\n");
     if (!robot.goal) continue;
     goals += car(robot.model, *robot.goal, view, joined(line, " fill=\"", colour, "\""));
     goals += joined("<g transform=\"", placement(*robot.goal, view), "\" stroke=\"#fff\">", tick(model, view),

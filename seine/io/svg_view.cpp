@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <variant>
+#include <vector>
 
 #include "seine/io/number_text.hpp"
 #include "seine/net/flight.hpp"
@@ -26,6 +29,29 @@ void include_net_task(const world::Scenario& scenario, geom::Box& box) {
   box.include(scenario.delivery->center + reach);
 }
 
+/// Where obstacles go while the plan lasts; without a plan, everywhere they go.
+void include_movers(const world::Scenario& scenario, const traj::TeamTrajectory* plan, geom::Box& box) {
+  for (const world::Obstacle& obstacle : scenario.obstacles) {
+    if (obstacle.motion.empty() || world::stands_still(obstacle)) continue;
+    geom::Box body;
+    if (const auto* circle = std::get_if<world::Circle>(&obstacle.shape)) {
+      body = geom::Box{circle->center, circle->center}.inflated(circle->radius);
+    } else {
+      for (const geom::Vec2 p : std::get<std::vector<geom::Vec2>>(obstacle.shape)) body.include(p);
+    }
+    const double reach = std::max(geom::norm(body.low), geom::norm(body.high));
+    const double end = plan != nullptr ? plan->makespan() : std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < obstacle.motion.size(); ++i) {
+      const world::Waypoint& waypoint = obstacle.motion[i];
+      const bool before = i + 1 < obstacle.motion.size() && obstacle.motion[i + 1].t <= 0.0;
+      const bool after = i > 0 && obstacle.motion[i - 1].t >= end;
+      if (before || after) continue;
+      box.include(waypoint.pose.position() - geom::Vec2{reach, reach});
+      box.include(waypoint.pose.position() + geom::Vec2{reach, reach});
+    }
+  }
+}
+
 /// Where the cars are at any time, m.
 geom::Box used_part(const world::Scenario& scenario, const traj::TeamTrajectory* plan) {
   constexpr int kSamples = 60;  // a car; the room around hides what lies between
@@ -41,6 +67,7 @@ geom::Box used_part(const world::Scenario& scenario, const traj::TeamTrajectory*
       include_car(model, plan->robots[k].at(arrival * i / kSamples).pose, box);
   }
   include_net_task(scenario, box);
+  include_movers(scenario, plan, box);
   return box;
 }
 

@@ -1,11 +1,16 @@
 #include "seine/io/yaml_reader.hpp"
 
 #include <algorithm>
-#include <numeric>
+#include <cmath>
+#include <numbers>
 #include <unordered_set>
 
+#include "seine/geom/pose2.hpp"
 #include "seine/io/message.hpp"
 #include "seine/io/number_text.hpp"
+#include "seine/io/reading.hpp"
+#include "seine/io/suggestion.hpp"
+#include "seine/io/utf8.hpp"
 #include "seine/io/yaml_census.hpp"
 
 namespace seine::io {
@@ -19,52 +24,34 @@ std::string excerpt(std::string_view text) {
   return printable(text, 40);
 }
 
-/// Number of edits (insert, delete, replace, swap of neighbours) between two words.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
-  std::iota(last.begin(), last.end(), std::size_t{0});
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (a[i - 1] == b[j - 1] ? 0U : 1U)});
-      const bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
-      if (swapped) row[j] = std::min(row[j], before[j - 2] + 1);
-    }
-    before = std::exchange(last, row);
-  }
-  return last[b.size()];
-}
-
 std::string range_text(Range range) {
   return joined("from ", number_text(range.low), " to ", number_text(range.high));
 }
 
 }  // namespace
 
-std::string did_you_mean(std::string_view word, const std::vector<std::string_view>& known) {
-  if (word.size() > 40) return "";
-  std::string_view best;
-  std::size_t least = std::max<std::size_t>(1, word.size() / 3) + 1;
-  for (const std::string_view candidate : known) {
-    const std::size_t distance = edit_distance(word, candidate);
-    if (distance < least) least = distance, best = candidate;
-  }
-  return best.empty() ? "" : joined(": did you mean '", best, "'?");
-}
-
-YamlValue YamlValue::parse(std::string_view text, const std::string& file) {
+YamlValue YamlValue::parse(std::string_view text, const std::string& file, Reading* reading) {
   expect_one_shallow_document(text, file);
   try {
     const YAML::Node root = YAML::Load(std::string(text));
     if (root.IsNull()) throw complaint(file, 1, "is empty, expected YAML");
-    return {root, std::make_shared<const std::string>(file), kWholeFile};
+    return {root, std::make_shared<const Source>(Source{file, reading}), kWholeFile};
   } catch (const YAML::Exception& error) {
     throw complaint(file, error.mark.line + 1, yaml_complaint(error.msg));
   }
 }
 
 void YamlValue::fail(const std::string& message) const {
-  throw complaint(*file_, node_.Mark().line + 1, what_ + " " + message);
+  throw complaint(source_->file, line(), what_ + " " + message);
+}
+
+std::string YamlValue::where() const {
+  return joined(source_->file, ":", line());
+}
+
+void YamlValue::note(const std::string& message) const {
+  if (source_->reading != nullptr)
+    source_->reading->notes.push_back(joined(where(), ": ", what_, " ", message));
 }
 
 std::string YamlValue::found() const {
@@ -94,6 +81,36 @@ double YamlValue::number_or_infinity(Range range) const {
   return number(range);
 }
 
+double YamlValue::angle(Range range) const {
+  constexpr double kDegree = std::numbers::pi / 180.0;
+  const std::string_view text = scalar("an angle");
+  std::string_view digits = text;
+  for (const std::string_view unit : {"degrees", "degree", "deg", "\u00b0"}) {
+    if (!digits.ends_with(unit)) continue;
+    digits.remove_suffix(unit.size());
+    digits.remove_suffix(digits.size() - (digits.find_last_not_of(' ') + 1));
+    break;
+  }
+  const std::optional<double> value = parse_number(digits);
+  if (!value) fail(joined("is ", found(), ", expected an angle in radians, or in degrees as in '90 deg'"));
+  const double angle = digits.size() < text.size() ? *value * kDegree : *value;
+  if (!(range.low <= angle && angle <= range.high)) {
+    fail(joined(
+        "is ", excerpt(text), ", expected ", range_text(range), " rad",
+        digits.size() == text.size() ? joined("; degrees are written '", excerpt(text), " deg'") : ""));
+  }
+  return angle;
+}
+
+double YamlValue::heading() const {
+  const double given = angle({-1e4, 1e4});
+  const bool in_radians = parse_number(node_.Scalar()).has_value();
+  if (in_radians && std::abs(given) > 2.0 * std::numbers::pi + 1e-6)
+    note(joined("is ", excerpt(node_.Scalar()), " rad, more than a turn: degrees are written '",
+                excerpt(node_.Scalar()), " deg'"));
+  return geom::wrap_angle(given);
+}
+
 long long YamlValue::integer(long long low, long long high) const {
   const std::optional<long long> value = parse_integer(scalar("a whole number"));
   if (!value) fail(joined("is ", found(), ", expected a whole number"));
@@ -107,6 +124,7 @@ std::string YamlValue::text() const {
   const std::string& value = scalar("a text");
   if (value.empty()) fail("is empty, expected a text");
   if (value.size() > 200) fail("is too long, expected at most 200 bytes");
+  if (!is_utf8(value)) fail("is not UTF-8, expected text in that encoding");
   for (const char c : value) {
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
       fail("has control characters, expected plain text");
@@ -124,7 +142,7 @@ std::vector<YamlValue> YamlValue::list(std::size_t least, std::size_t most) cons
   std::vector<YamlValue> values;
   values.reserve(node_.size());
   for (const YAML::Node& entry : node_) {
-    values.push_back({entry, file_, joined("entry ", values.size() + 1, " of ", what_)});
+    values.push_back({entry, source_, joined("entry ", values.size() + 1, " of ", what_)});
   }
   return values;
 }
@@ -149,11 +167,11 @@ YamlMap YamlValue::read_map(const std::initializer_list<std::string_view>* keys)
   std::unordered_set<std::string> seen;
   std::vector<YAML::Node> merged;
   for (const auto& entry : node_) {
-    const std::string& name = YamlValue(entry.first, file_, joined("a key of ", what_)).scalar("a text");
+    const std::string& name = YamlValue(entry.first, source_, joined("a key of ", what_)).scalar("a text");
     const int line = entry.first.Mark().line + 1;
     if (name != kMerge) expect_known(name, line, keys);
     if (!seen.insert(name).second)
-      throw complaint(*file_, line, joined("key '", excerpt(name), "' stands twice in ", what_));
+      throw complaint(source_->file, line, joined("key '", excerpt(name), "' stands twice in ", what_));
     if (name == kMerge)
       add_merged(entry.second, merged, 0);
     else
@@ -162,7 +180,7 @@ YamlMap YamlValue::read_map(const std::initializer_list<std::string_view>* keys)
   // What stands in the map itself comes first, then the maps it merges, the earlier before the later.
   for (const YAML::Node& source : merged) {
     for (const auto& entry : source) {
-      const std::string& name = YamlValue(entry.first, file_, joined("a key of ", what_)).scalar("a text");
+      const std::string& name = YamlValue(entry.first, source_, joined("a key of ", what_)).scalar("a text");
       if (name == kMerge || !seen.insert(name).second) continue;
       expect_known(name, entry.first.Mark().line + 1, keys);
       map.entries_.emplace_back(name, value_of(name, entry.second));
@@ -175,20 +193,20 @@ void YamlValue::expect_known(const std::string& name, int line,
                              const std::initializer_list<std::string_view>* keys) const {
   if (keys == nullptr || std::find(keys->begin(), keys->end(), name) != keys->end()) return;
   if (what_ == kWholeFile && name.starts_with("x-")) return;  // a place for anchors
-  throw complaint(*file_, line,
+  throw complaint(source_->file, line,
                   joined("unknown key '", excerpt(name), "' in ", what_, did_you_mean(name, {*keys})));
 }
 
 YamlValue YamlValue::value_of(const std::string& key, const YAML::Node& node) const {
   const bool top = what_ == kWholeFile;
-  return {node, file_, joined("'", excerpt(key), "'", (top ? "" : joined(" of ", what_)))};
+  return {node, source_, joined("'", excerpt(key), "'", (top ? "" : joined(" of ", what_)))};
 }
 
 /// What a merge key names: a map or a list of maps, each followed by what it merges itself.
 void YamlValue::add_merged(const YAML::Node& node, std::vector<YAML::Node>& sources, int depth) const {
   constexpr int kDeepest = 20;
   constexpr std::size_t kMost = 1000;  // maps that merge each other twice over would grow without end
-  const YamlValue value(node, file_, joined("'<<' of ", what_));
+  const YamlValue value(node, source_, joined("'<<' of ", what_));
   if (depth > kDeepest || sources.size() > kMost) value.fail("merges too many maps");
   if (node.IsSequence()) {
     for (const YAML::Node& entry : node) add_merged(entry, sources, depth + 1);

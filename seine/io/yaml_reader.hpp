@@ -13,6 +13,7 @@
 namespace seine::io {
 
 class YamlMap;
+struct Reading;
 
 /// A closed interval a number must lie in.
 struct Range {
@@ -26,10 +27,16 @@ class YamlValue {
  public:
   /// Parses one document. Throws InputError on a syntax error, more than one document or an empty one.
   /// @param file name for messages
-  static YamlValue parse(std::string_view text, const std::string& file);
+  /// @param reading gets the notes, where it is given; outlives the value
+  static YamlValue parse(std::string_view text, const std::string& file, Reading* reading = nullptr);
 
   /// Throws InputError `file:line: <what> <message>`.
   [[noreturn]] void fail(const std::string& message) const;
+  int line() const { return node_.Mark().line + 1; }
+  /// Where it stands: `file:line`.
+  std::string where() const;
+  /// Leaves the note `file:line: <what> <message>`: what is read, and may be a slip all the same.
+  void note(const std::string& message) const;
 
   bool is_null() const { return node_.IsNull(); }
   bool is_map() const { return node_.IsMap(); }
@@ -39,8 +46,12 @@ class YamlValue {
   double number(Range range) const;
   /// A number in the range, or `.inf` for "no limit".
   double number_or_infinity(Range range) const;
+  /// Radians, or degrees where the text says so, as in `90 deg`.
+  double angle(Range range) const;
+  /// Such an angle as a heading, from −pi to pi; one of more than a turn leaves a note.
+  double heading() const;
   long long integer(long long low, long long high) const;
-  /// Non-empty, at most 200 bytes, no control characters.
+  /// Non-empty, at most 200 bytes of UTF-8, no control characters.
   std::string text() const;
   std::vector<YamlValue> list(std::size_t least, std::size_t most) const;
   /// `count` numbers, as in [x, y].
@@ -54,8 +65,12 @@ class YamlValue {
 
  private:
   friend class YamlMap;
-  YamlValue(const YAML::Node& node, std::shared_ptr<const std::string> file, std::string what)
-      : node_(node), file_(std::move(file)), what_(std::move(what)) {}
+  struct Source {
+    std::string file;
+    Reading* reading;
+  };
+  YamlValue(const YAML::Node& node, std::shared_ptr<const Source> source, std::string what)
+      : node_(node), source_(std::move(source)), what_(std::move(what)) {}
   YamlMap read_map(const std::initializer_list<std::string_view>* keys) const;
   void expect_known(const std::string& name, int line,
                     const std::initializer_list<std::string_view>* keys) const;
@@ -65,7 +80,7 @@ class YamlValue {
   std::string found() const;
 
   YAML::Node node_;
-  std::shared_ptr<const std::string> file_;
+  std::shared_ptr<const Source> source_;
   std::string what_;  ///< "goal of robot 'car0'": how messages call it
 };
 
@@ -86,8 +101,5 @@ class YamlMap {
   YamlValue self_;
   std::vector<std::pair<std::string, YamlValue>> entries_;
 };
-
-/// " — did you mean 'x'?" for the word nearest to `word`, or nothing when none is near.
-std::string did_you_mean(std::string_view word, const std::vector<std::string_view>& known);
 
 }  // namespace seine::io

@@ -1,6 +1,8 @@
 #include "seine/planner/front_door.hpp"
 
+#include <cmath>
 #include <optional>
+#include <string>
 
 #include "seine/base/error.hpp"
 #include "seine/base/workers.hpp"
@@ -55,6 +57,15 @@ PlanResult from_afar(const Method& method, const world::Scenario& scenario, geom
 }  // namespace
 
 PlanResult by(const Method& method, const world::Scenario& scenario, const Options& options) {
+  if (std::isnan(options.deadline_s)) throw InputError("plan: the deadline is not a number");
+  if (options.previous != nullptr) {
+    if (options.previous->robots.size() != scenario.robots.size())
+      throw InputError("plan: the previous plan is for " + std::to_string(options.previous->robots.size()) +
+                       " cars, expected the " + std::to_string(scenario.robots.size()) + " of the scenario");
+    if (!std::isfinite(options.previous_time))
+      throw InputError("plan: the previous plan's time is not finite");
+  }
+  world::expect_numbers(scenario);
   const std::optional<world::Scenario> mended = lawful(scenario);
   const world::Scenario& task = mended ? *mended : scenario;
   if (const auto origin = world::local_origin(task)) return from_afar(method, task, *origin, options);

@@ -63,12 +63,16 @@ std::string hint_at_headings(const world::Scenario& scenario) {
 NetSession::NetSession(const world::Scenario& scenario, const Options& options)
     : scenario_(scenario),
       options_(options),
-      deadline_(options.deadline_s),
+      deadline_(options.deadline_s, options.cancelled),
       workers_(options.threads),
       map_(scenario) {}
 
 PlanResult NetSession::run() {
-  world::expect_sound(scenario_, map_);
+  if (const std::string no_answer = world::expect_sound(scenario_, map_); !no_answer.empty()) {
+    result_.reason = no_answer;
+    result_.impossible = true;
+    return finish();
+  }
   question_ = ask_net(scenario_, options_.without);
   if (!question_.refusal.empty()) {
     result_.reason = question_.refusal;

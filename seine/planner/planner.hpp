@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -32,6 +33,9 @@ struct Options {
   double deadline_s = std::numeric_limits<double>::infinity();  ///< wall time for everything
   int threads = 0;                                              ///< 0: as many as the machine has
   std::uint64_t seed = 0;
+  /// Once it is true planning ends as at its deadline, with the best certified plan so far. It must outlive
+  /// the call. Optional.
+  const std::atomic<bool>* cancelled = nullptr;
   Ablation without;
   std::function<void(const Progress&)> progress;  ///< optional
   /// A team with a net can go on from a plan it has: planning starts from what is left of that plan at

@@ -53,14 +53,15 @@ std::optional<traj::RobotTrajectory> long_drive(const search::TimedPath& guess, 
 Session::Session(const world::Scenario& scenario, const Options& options)
     : scenario_(scenario),
       options_(options),
-      deadline_(options.deadline_s),
+      deadline_(options.deadline_s, options.cancelled),
       workers_(options.threads),
       map_(scenario),
       asked_(scenario) {}
 
 PlanResult Session::run() {
-  world::expect_sound(scenario_, map_);
-  climb();
+  result_.reason = world::expect_sound(scenario_, map_);
+  guess_.impossible = !result_.reason.empty();
+  if (!guess_.impossible) climb();
   return finish();
 }
 

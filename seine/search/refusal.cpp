@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "seine/geom/convex.hpp"
 #include "seine/search/leaving.hpp"
 #include "seine/search/motion.hpp"
 
@@ -29,6 +33,11 @@ Cause cause_of(const Bottleneck& place, const geom::Box& bounds) {
   return place.nearer_to_goal ? Cause::goal_closed_in : Cause::start_closed_in;
 }
 
+// ", by the wall and the bounds"
+std::string by(const Refusal& refusal) {
+  return refusal.beside.empty() ? "" : ", by " + refusal.beside;
+}
+
 const char* why(Cause cause) {
   if (cause == Cause::goal_closed_in) return "its goal is closed in";
   return cause == Cause::start_closed_in ? "its start is closed in" : "the way is closed";
@@ -42,6 +51,31 @@ std::string advice(const Refusal& refusal, double margin) {
 }
 
 }  // namespace
+
+// What stands nearest to the place, and what is hardly further away on another side.
+std::string beside(const world::StaticMap& map, const Bottleneck& place) {
+  constexpr double kWider = 1.3;
+  const double cap = 0.5 * kWider * place.width + kGranted;
+  std::vector<std::pair<double, std::string>> found;  // every obstacle once
+  map.for_each_near(geom::Box{place.at, place.at}.inflated(cap), [&](const world::StaticMap::Piece& piece) {
+    const double distance = geom::separation({{place.at}, 0.0}, piece.shape).distance;
+    if (distance > cap) return;
+    std::string name =
+        piece.obstacle < 0 ? "the map" : map.describe(static_cast<int>(&piece - map.pieces().data()));
+    const auto known = std::ranges::find(found, name, &std::pair<double, std::string>::second);
+    if (known == found.end())
+      found.emplace_back(distance, std::move(name));
+    else
+      known->first = std::min(known->first, distance);
+  });
+  const geom::Box& b = map.bounds();
+  const double edge = std::min(std::min(place.at.x - b.low.x, place.at.y - b.low.y),
+                               std::min(b.high.x - place.at.x, b.high.y - place.at.y));
+  if (edge <= cap) found.emplace_back(edge, "the bounds");
+  std::ranges::stable_sort(found, {}, &std::pair<double, std::string>::first);
+  if (found.empty()) return "";
+  return found.size() == 1 ? found[0].second : found[0].second + " and " + found[1].second;
+}
 
 Refusal why_no_way(const world::Scenario& scenario, const world::StaticMap& map, int robot) {
   const world::Robot& car = scenario.robots[static_cast<std::size_t>(robot)];
@@ -59,6 +93,7 @@ Refusal why_no_way(const world::Scenario& scenario, const world::StaticMap& map,
                  refusal.needed - kGranted, std::max(0.5 * model.length() + margin, refusal.needed));
   if (refusal.place && refusal.place->upper_width < refusal.needed - kGranted)
     refusal.cause = cause_of(*refusal.place, map.bounds());
+  if (refusal.place) refusal.beside = beside(map, *refusal.place);
   return refusal;
 }
 
@@ -71,28 +106,46 @@ std::string sentence(const Refusal& refusal, const world::Scenario& scenario, in
     const std::string closed =
         car.name + " cannot reach its goal (proved unreachable): " + why(refusal.cause);
     if (refusal.place->width < kGranted)
-      return closed + text(", without any opening; what closes it is thinnest near (%.2f, %.2f)", at.x, at.y);
+      return closed +
+             text(", without any opening; what closes it is thinnest near (%.2f, %.2f)", at.x, at.y) +
+             by(refusal);
     return closed +
            text(
                ", the widest way is only %.3g m wide at (%.2f, %.2f) and %.3g m is needed (%.3g m for the "
                "car, "
-               "%.3g m of margin on each side); ",
+               "%.3g m of margin on each side)",
                refusal.place->width, at.x, at.y, refusal.needed, refusal.width, margin) +
-           advice(refusal, margin);
+           by(refusal) + "; " + advice(refusal, margin);
   }
   const double radius = 1.0 / scenario.model_of(car).max_curvature();
   std::string found = car.name + ": no path found";
   if (!refusal.place)
     return found +
            text(
-               ", though the ground is wide; its turning circle (radius %.3g m) may have no room at the "
+               ", though the ground is wide; its turning circle (radius %.3g m%s) may have no room at the "
                "start or the goal",
-               radius);
-  return found + text(
-                     ": no room found to turn with a radius of %.3g m; the widest way is %.3g m wide at its "
-                     "narrowest place, (%.2f, %.2f), and %.3g m is needed to go straight through. A smaller "
-                     "margin or turning circle, or another heading at the goal, may help",
-                     radius, refusal.place->width, at.x, at.y, refusal.needed);
+               radius, scenario.model_of(car).limits.reverse_speed > 0.0 ? "" : ", no reverse gear");
+  const char* gear = scenario.model_of(car).limits.reverse_speed > 0.0 ? "" : " without a reverse gear";
+  const std::string turn = text(": no room found to turn with a radius of %.3g m%s; ", radius, gear);
+  const char* hint =
+      scenario.model_of(car).limits.reverse_speed > 0.0
+          ? ". A smaller margin or turning circle, or another heading at the goal, may help"
+          : ". A reverse gear ('reverse_speed' is 0), a smaller margin or turning circle, or another heading "
+            "at the goal, may help";
+  if (refusal.place->width >= refusal.needed) {
+    return found + turn +
+           text(
+               "straight on there is room everywhere (%.3g m wide at the narrowest place, (%.2f, %.2f), and "
+               "%.3g m is needed)",
+               refusal.place->width, at.x, at.y, refusal.needed) +
+           hint;
+  }
+  return found + turn +
+         text(
+             "the widest way is %.3g m wide at its narrowest place, (%.2f, %.2f), and %.3g m is needed to go "
+             "straight through",
+             refusal.place->width, at.x, at.y, refusal.needed) +
+         by(refusal) + hint;
 }
 
 std::string cannot_pass_sentence(const world::Scenario& scenario, int a, int b) {

@@ -22,6 +22,7 @@ struct Refusal {
   std::optional<Bottleneck> place;  ///< the narrowest on the widest way; nothing where all is wide
   double width = 0.0;               ///< m, of the largest disc in the footprint
   double needed = 0.0;              ///< m, with the margin on both sides
+  std::string beside;               ///< what stands nearest to that place: one thing, or two
 
   bool proved() const { return cause != Cause::no_room_found && cause != Cause::no_time; }
 };

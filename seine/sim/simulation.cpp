@@ -1,7 +1,6 @@
 #include "seine/sim/simulation.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -12,6 +11,7 @@
 #include "seine/sim/car.hpp"
 #include "seine/sim/clearance.hpp"
 #include "seine/sim/conductor.hpp"
+#include "seine/sim/preconditions.hpp"
 #include "seine/sim/scene.hpp"
 
 namespace seine::sim {
@@ -73,7 +73,6 @@ Loop::Loop(const world::Scenario& scenario, const traj::TeamTrajectory& plan, co
       surroundings_(scenario),
       countdown_(countdown_of(plan)),
       conductor_(scenario, plan, options, -countdown_) {
-  assert(plan.robots.size() == scenario.robots.size());
   Rng seeds(options.seed);
   for (std::size_t k = 0; k < scenario.robots.size(); ++k) {
     const vehicle::Model& model = scenario.model_of(scenario.robots[k]);
@@ -231,6 +230,7 @@ void Loop::conclude() {
 
 SimulationResult simulate(const world::Scenario& scenario, const traj::TeamTrajectory& plan,
                           const Controller& controller, const SimulationOptions& options) {
+  expect_preconditions(scenario, plan, controller, options);
   return Loop(scenario, plan, controller, options).run();
 }
 

@@ -6,6 +6,7 @@
 #include <map>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include "seine/base/error.hpp"
 #include "seine/geom/polygon.hpp"
@@ -75,17 +76,7 @@ void check_world(const Scenario& scenario, Complaints& out) {
   }
 }
 
-bool check_obstacle(const Obstacle& obstacle, const std::string& name, Complaints& out) {
-  if (const auto* circle = std::get_if<Circle>(&obstacle.shape)) {
-    if (!require(circle->radius > 0.0 && std::isfinite(circle->radius), "the radius of " + name,
-                 circle->radius, "a positive number", out)) {
-      return false;
-    }
-  } else if (const std::string why = geom::why_not_simple(std::get<std::vector<Vec2>>(obstacle.shape));
-             !why.empty()) {
-    out.push_back(name + " is not a simple polygon: " + why);
-    return false;
-  }
+bool check_motion(const Obstacle& obstacle, const std::string& name, Complaints& out) {
   for (std::size_t i = 0; i < obstacle.motion.size(); ++i) {
     const Waypoint& waypoint = obstacle.motion[i];
     const bool later = i == 0 || waypoint.t > obstacle.motion[i - 1].t;
@@ -98,10 +89,26 @@ bool check_obstacle(const Obstacle& obstacle, const std::string& name, Complaint
   return true;
 }
 
+bool check_obstacle(const Obstacle& obstacle, const std::string& name, Complaints& out) {
+  if (const auto* circle = std::get_if<Circle>(&obstacle.shape)) {
+    if (!require(circle->radius > 0.0 && std::isfinite(circle->radius), "the radius of " + name,
+                 circle->radius, "a positive number", out)) {
+      return false;
+    }
+  } else if (const std::string why = geom::why_not_simple(std::get<std::vector<Vec2>>(obstacle.shape));
+             !why.empty()) {
+    out.push_back(name + " is not a simple polygon: " + why);
+    return false;
+  }
+  return check_motion(obstacle, name, out);
+}
+
 // A car at one of its ends.
 struct Stand {
-  std::string who;   // "car0 at its start"
-  std::string car;   // "car0"
+  std::string who;  // "car0 at its start"
+  std::string car;  // "car0"
+  int robot;
+  bool goal;
   Convex footprint;  // in the world
   geom::Box box;
 };
@@ -110,6 +117,8 @@ Stand stand_of(const Scenario& scenario, std::size_t robot, bool goal) {
   const Robot& r = scenario.robots[robot];
   Stand stand{name_of(r, robot) + (goal ? " at its goal" : " at its start"),
               name_of(r, robot),
+              static_cast<int>(robot),
+              goal,
               geom::placed({scenario.model_of(r).footprint, 0.0}, goal ? *r.goal : r.start),
               {}};
   stand.box = stand.footprint.box();
@@ -138,6 +147,11 @@ void complain_if_near(const std::string& who, const std::string& other, double d
     out.push_back(who + " is " + metres(std::max(distance, 0.0)) + " from " + other +
                   ", nearer than the margin of " + metres(margin));
   }
+}
+
+/// Says of the complaints from `first` on which place they are about.
+void assign(const Stand& stand, std::size_t first, Complaints& out) {
+  for (std::size_t i = first; i < out.size(); ++i) out[i].robot = stand.robot, out[i].goal = stand.goal;
 }
 
 void check_bounds(const Stand& stand, const geom::Box& bounds, double margin, Complaints& out) {
@@ -180,7 +194,7 @@ void check_static(const Scenario& scenario, const Stand& stand, const StaticMap&
     complain_if_near(stand.who, map.describe(found.piece), found.distance, margin, out);
     const Convex& shape = map.pieces()[static_cast<std::size_t>(found.piece)].shape;
     if (obstacle < 0 && out.size() > before && beyond_picture(*scenario.map, shape))
-      out.back() += " (if that is free, say 'outside: free' under 'world')";
+      out.back().text += " (if that is free, say 'outside: free' under 'world')";
   }
 }
 
@@ -201,8 +215,11 @@ void check_moving(const std::vector<Stand>& stands, const std::vector<Convex>& b
       }
     }
   }
-  for (std::size_t i = 0; i < stands.size(); ++i)
+  for (std::size_t i = 0; i < stands.size(); ++i) {
+    const std::size_t before = out.size();
     complain_if_near(stands[i].who, name, worst[i], margin, out);
+    assign(stands[i], before, out);
+  }
 }
 
 double distance_at(const Stand& stand, const std::vector<Convex>& body, const geom::Pose2& pose) {
@@ -238,6 +255,8 @@ void check_last_place(const std::vector<Stand>& goals, const std::vector<Convex>
     out.push_back("the goal of " + goal.car + " is blocked from t = " +
                   number(std::max(0.0, near_from(goal, body, motion, margin))) + " s on by " + name +
                   ", which comes to rest " + (distance > 0.0 ? metres(distance) + " from it" : "on it"));
+    assign(goal, out.size() - 1, out);
+    out.back().impossible = true;
   }
 }
 
@@ -247,7 +266,9 @@ void check_pairs(const std::vector<Stand>& stands, double margin, Complaints& ou
     for (std::size_t j = i + 1; j < stands.size(); ++j) {
       if (!box.overlaps(stands[j].box)) continue;
       const double distance = geom::separation(stands[i].footprint, stands[j].footprint).distance;
+      const std::size_t before = out.size();
       complain_if_near(stands[i].who, stands[j].who, distance, margin, out);
+      assign(stands[i], before, out);
     }
   }
 }
@@ -283,6 +304,12 @@ bool check_robot(const Scenario& scenario, std::size_t index, const std::vector<
 }  // namespace
 
 std::vector<std::string> check(const Scenario& scenario, const StaticMap& map) {
+  std::vector<std::string> sentences;
+  for (Complaint& complaint : examine(scenario, map)) sentences.push_back(std::move(complaint.text));
+  return sentences;
+}
+
+Complaints examine(const Scenario& scenario, const StaticMap& map) {
   Complaints out;
   check_world(scenario, out);
   std::vector<bool> model_fine;
@@ -307,8 +334,9 @@ std::vector<std::string> check(const Scenario& scenario, const StaticMap& map) {
       check_static(scenario, stand, map, least, out);
       if (start && !scenario.margins.leaving && stand_clear(stand, map))
         for (std::size_t i = before; i < out.size(); ++i)
-          out[i] += " (to let cars leave such places, give 'margins: {leaving: ...}' in m)";
+          out[i].text += " (to let cars leave such places, give 'margins: {leaving: ...}' in m)";
       if (out.size() == before) check_cell(stand, scenario.map, out);
+      assign(stand, before, out);
     }
     check_pairs(*stands, usable(scenario.margins.robot), out);
   }
@@ -327,12 +355,36 @@ std::vector<std::string> check(const Scenario& scenario, const StaticMap& map) {
   return out;
 }
 
-void expect_sound(const Scenario& scenario, const StaticMap& map) {
-  const Complaints complaints = check(scenario, map);
-  if (complaints.empty()) return;
-  const std::string more =
-      complaints.size() > 1 ? " (and " + std::to_string(complaints.size() - 1) + " more)" : "";
-  throw InputError(scenario.name + ": " + complaints.front() + more);
+Complaints check_numbers(const Scenario& scenario) {
+  Complaints out;
+  check_world(scenario, out);
+  std::vector<bool> model_fine;
+  for (const vehicle::Model& model : scenario.models) model_fine.push_back(check_model(model, out));
+  for (std::size_t i = 0; i < scenario.robots.size(); ++i) check_robot(scenario, i, model_fine, out);
+  for (std::size_t i = 0; i < scenario.obstacles.size(); ++i)
+    check_motion(scenario.obstacles[i], name_of(scenario.obstacles[i], i), out);
+  check_net_numbers(scenario, out);
+  return out;
+}
+
+void expect_numbers(const Scenario& scenario) {
+  if (Complaints complaints = check_numbers(scenario); !complaints.empty())
+    throw Unsound(scenario.name, std::move(complaints));
+}
+
+Unsound::Unsound(const std::string& scenario, Complaints complaints)
+    : InputError(scenario + ": " + complaints.front().text +
+                 (complaints.size() > 1 ? " (and " + std::to_string(complaints.size() - 1) + " more)" : "")),
+      complaints_(std::make_shared<const Complaints>(std::move(complaints))) {}
+
+std::string expect_sound(const Scenario& scenario, const StaticMap& map) {
+  Complaints complaints = examine(scenario, map);
+  std::string no_answer;
+  for (const Complaint& complaint : complaints)
+    if (complaint.impossible && no_answer.empty()) no_answer = complaint.text;
+  std::erase_if(complaints, [](const Complaint& complaint) { return complaint.impossible; });
+  if (!complaints.empty()) throw Unsound(scenario.name, std::move(complaints));
+  return no_answer;
 }
 
 }  // namespace seine::world

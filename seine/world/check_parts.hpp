@@ -8,12 +8,11 @@
 
 #include "seine/geom/convex.hpp"
 #include "seine/geom/polygon.hpp"
+#include "seine/world/check.hpp"
 #include "seine/world/scenario.hpp"
 
 // What `check` and `check_net` have in common.
 namespace seine::world {
-
-using Complaints = std::vector<std::string>;
 
 inline std::string number(double value) {
   char text[40];

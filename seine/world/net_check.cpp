@@ -210,17 +210,58 @@ void check_stand(const Scenario& scenario, const StaticMap& map, const Stand& st
   check_moving_under(under, at_start);
 }
 
-void check_target(const Scenario& scenario, const net::Target& target, const std::string& name,
-                  Complaints& out) {
-  const double rim = scenario.net->rim();
+// Whether it is the covariance of anything: symmetric, and no direction with a negative variance.
+bool is_covariance(const decltype(net::Target::covariance)& c) {
+  const std::size_t n = c.size();
+  double scale = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j < n; ++j)
+      if (!std::isfinite(c[i][j])) return false;
+    scale = std::max(scale, c[i][i]);
+  }
+  const double rounding = 1e-7 * scale;
+  auto rest = c;  // Gaussian elimination: the pivots of a semidefinite matrix are not negative
+  for (std::size_t k = 0; k < n; ++k) {
+    for (std::size_t j = 0; j < n; ++j)
+      if (std::abs(c[k][j] - c[j][k]) > rounding) return false;
+    if (rest[k][k] < -rounding) return false;
+    for (std::size_t i = k + 1; i < n; ++i) {
+      // Without variance there is no correlation either.
+      if (rest[k][k] <= rounding && std::abs(rest[i][k]) > std::sqrt(rounding * scale) + rounding)
+        return false;
+      if (rest[k][k] <= rounding) continue;
+      const double factor = rest[i][k] / rest[k][k];
+      for (std::size_t j = k; j < n; ++j) rest[i][j] -= factor * rest[k][j];
+    }
+  }
+  return true;
+}
+
+bool check_target_numbers(const net::Target& target, const std::string& name, Complaints& out) {
   if (!require(target.radius > 0.0 && std::isfinite(target.radius), "the radius of " + name, target.radius,
                "a positive number", out) ||
       !require(target.mass > 0.0 && std::isfinite(target.mass), "the mass of " + name, target.mass,
                "a positive number", out) ||
       !require(target.drag >= 0.0 && std::isfinite(target.drag), "the drag of " + name, target.drag,
                "zero or more", out)) {
-    return;
+    return false;
   }
+  for (const double value : {target.time, target.position.x, target.position.y, target.position.z,
+                             target.velocity.x, target.velocity.y, target.velocity.z}) {
+    if (!require(std::isfinite(value), "a time, position or velocity of " + name, value, "finite numbers",
+                 out))
+      return false;
+  }
+  if (is_covariance(target.covariance)) return true;
+  out.push_back("the covariance of " + name +
+                " is none: expected finite numbers, symmetric, positive semidefinite");
+  return false;
+}
+
+void check_target(const Scenario& scenario, const net::Target& target, const std::string& name,
+                  Complaints& out) {
+  if (!check_target_numbers(target, name, out)) return;
+  const double rim = scenario.net->rim();
   const auto crossing = net::Flight(target).crossing(rim);
   if (!crossing) {
     const double below = rim - target.position.z;
@@ -276,7 +317,19 @@ void check_delivery(const Scenario& scenario, const std::optional<Stand>& goals,
 
 }  // namespace
 
-void check_net(const Scenario& scenario, const StaticMap& map, std::vector<std::string>& out) {
+void check_net_numbers(const Scenario& scenario, Complaints& out) {
+  if (!scenario.net) return;
+  if (!check_team(scenario, out)) return;
+  for (std::size_t i = 0; i < scenario.targets.size(); ++i)
+    check_target_numbers(scenario.targets[i], "target " + std::to_string(i + 1), out);
+  if (!scenario.payload) return;
+  require(scenario.payload->radius > 0.0 && std::isfinite(scenario.payload->radius),
+          "the radius of the payload", scenario.payload->radius, "a positive number", out);
+  require(scenario.payload->mass > 0.0 && std::isfinite(scenario.payload->mass), "the mass of the payload",
+          scenario.payload->mass, "a positive number", out);
+}
+
+void check_net(const Scenario& scenario, const StaticMap& map, Complaints& out) {
   if (!scenario.net) {
     if (!scenario.targets.empty() || scenario.payload || scenario.delivery)
       out.push_back("there are targets, a payload or a delivery, but no net");

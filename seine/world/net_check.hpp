@@ -1,8 +1,6 @@
 #pragma once
 
-#include <string>
-#include <vector>
-
+#include "seine/world/check.hpp"
 #include "seine/world/scenario.hpp"
 #include "seine/world/static_map.hpp"
 
@@ -16,6 +14,9 @@ inline constexpr double kDeliveryHeading = 0.1;
 /// limit, twist, hang over something it touches, or let drag; targets that never fall through the rim, or
 /// before the plan begins; a delivery out of bounds or elsewhere than the goals. Nothing for a team without a
 /// net.
-void check_net(const Scenario& scenario, const StaticMap& map, std::vector<std::string>& out);
+void check_net(const Scenario& scenario, const StaticMap& map, Complaints& out);
+
+/// The part of it that looks at numbers alone: a net that fits the team, targets and payload that can be.
+void check_net_numbers(const Scenario& scenario, Complaints& out);
 
 }  // namespace seine::world

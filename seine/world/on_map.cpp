@@ -10,6 +10,7 @@
 
 #include "seine/base/error.hpp"
 #include "seine/base/rng.hpp"
+#include "seine/geom/grid_check.hpp"
 #include "seine/world/families.hpp"
 
 namespace seine::world {
@@ -178,6 +179,7 @@ bool add_robot(Scenario& scenario, const Floor& floor, const std::vector<int>& p
 }  // namespace
 
 Scenario on_map(const OccupancyGrid& map, int robots, std::uint64_t seed) {
+  if (!geom::is_complete(map)) throw InputError("the map has not the cells that its width and height say");
   if (robots < 1 || robots > 1000)
     throw InputError("a team on a map has 1 to 1000 robots, not " + std::to_string(robots));
   Scenario scenario;

@@ -7,6 +7,7 @@
 #include <deque>
 
 #include "seine/base/error.hpp"
+#include "seine/geom/grid_check.hpp"
 #include "seine/geom/polygon.hpp"
 
 namespace seine::world {
@@ -107,6 +108,11 @@ void StaticMap::add_pieces(const Scenario& scenario) {
 void StaticMap::add_map(const Scenario& scenario) {
   outside_begin_ = pieces_.size();
   if (!scenario.map) return;
+  if (!geom::is_complete(*scenario.map)) {
+    throw InputError("the map has " + std::to_string(scenario.map->occupied.size()) + " cells, expected " +
+                      std::to_string(scenario.map->width) + " x " + std::to_string(scenario.map->height) +
+                      " of a positive, finite size");
+  }
   const geom::Outside outside = scenario.outside_free ? geom::Outside::free : geom::Outside::blocked;
   std::vector<geom::Convex> rectangles = geom::boundary_rectangles(*scenario.map, outside);
   pieces_.reserve(pieces_.size() + rectangles.size() + 4);

@@ -95,9 +95,10 @@ TEST(Pipeline, InterruptedEndsSoonAndWritesNothing) {
                 "for i in $(seq 1000); do\n"
                 "  grep -q '^SigCgt:.*[2367abef]$' /proc/$!/status && break || sleep 0.01\n"
                 "done\n"
-                "kill -INT $!; wait $!; exit 0\n");
+                "kill -INT $!; wait $!; echo $?\n");
   const Outcome outcome = scratch.run("--version && bash run.sh");
   EXPECT_EQ(outcome.err, "seine: interrupted\n");
+  EXPECT_NE(outcome.out.find("130\n"), std::string::npos) << outcome.out;
   EXPECT_FALSE(scratch.has("p.json"));
   EXPECT_LT(outcome.seconds, 2.0 * patience());
 }

@@ -23,10 +23,19 @@ Scratch::~Scratch() {
 }
 
 Outcome Scratch::run(const std::string& arguments) const {
+  return call("'" SEINE_PROGRAM "' " + arguments);
+}
+
+Outcome Scratch::run_in_shell(const std::string& arguments, const std::string& before) const {
+  return call("{ " + before + " '" SEINE_PROGRAM "' " + arguments + "; }");
+}
+
+// The redirections come first: those of the command itself overrule them.
+Outcome Scratch::call(const std::string& command) const {
   const auto start = std::chrono::steady_clock::now();
-  const std::string command =
-      "cd '" + folder_.string() + "' && '" SEINE_PROGRAM "' " + arguments + " >.stdout 2>.stderr </dev/null";
-  const int result = std::system(command.c_str());
+  const std::string line =
+      "cd '" + folder_.string() + "' && exec >.stdout 2>.stderr </dev/null && " + command;
+  const int result = std::system(line.c_str());
   Outcome outcome;
   outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   outcome.status = WIFEXITED(result) ? WEXITSTATUS(result) : -1;

@@ -23,6 +23,8 @@ class Scratch {
 
   /// Runs `seine ARGUMENTS` (shell syntax) in the folder.
   Outcome run(const std::string& arguments) const;
+  /// The same with redirections of its own, after `before` (as "ulimit -f 4;").
+  Outcome run_in_shell(const std::string& arguments, const std::string& before = "") const;
   /// Writes a file into the folder.
   void write(const std::string& name, const std::string& text) const;
   std::string read(const std::string& name) const;
@@ -30,6 +32,8 @@ class Scratch {
   const std::filesystem::path& folder() const { return folder_; }
 
  private:
+  Outcome call(const std::string& command) const;
+
   std::filesystem::path folder_;
 };
 

@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <string>
+#include <utility>
+
 #include "tests/cli/program.hpp"
 
 namespace seine::tests {
@@ -9,12 +12,13 @@ TEST(Usage, HelpTeaches) {
   const Scratch scratch;
   const Outcome help = scratch.run("--help");
   EXPECT_EQ(help.status, 0);
-  for (const char* word :
-       {"plan", "certify", "simulate", "plot", "export", "generate", "bench", "Examples", "Exit status"}) {
+  for (const char* word : {"plan", "certify", "check", "simulate", "plot", "export", "generate", "bench",
+                           "Examples", "Exit status"}) {
     EXPECT_NE(help.out.find(word), std::string::npos) << word;
   }
   EXPECT_EQ(help.err, "");
-  for (const char* command : {"plan", "certify", "simulate", "plot", "export", "generate", "bench"}) {
+  for (const char* command :
+       {"plan", "certify", "simulate", "plot", "export", "generate", "bench", "check"}) {
     const Outcome more = scratch.run(std::string(command) + " --help");
     EXPECT_EQ(more.status, 0) << command;
     EXPECT_NE(more.out.find("Example"), std::string::npos) << command;
@@ -82,6 +86,47 @@ TEST(Usage, GenerateOnAMapWritesTheMapBeside) {
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_TRUE(scratch.has("s.yaml"));
   EXPECT_TRUE(scratch.has("s-map.yaml"));
+}
+
+/// What is unknown is answered with what is near.
+TEST(Usage, UnknownWordsAreAnsweredWithTheNearest) {
+  const Scratch scratch;
+  scratch.write("s.yaml", two_cars());
+  for (const auto& [command, hint] : {std::pair{"paln s.yaml", "'plan'"},
+                                      {"chekc s.yaml", "'check'"},
+                                      {"plan s.yaml --dedline 3", "'--deadline'"},
+                                      {"plan s.yaml --method joitn", "'joint'"},
+                                      {"plan s.yaml --without cach", "'catch'"},
+                                      {"generate rondom", "'random'"},
+                                      {"generate everyday --kind paralel", "'parallel'"},
+                                      {"generate everyday --vehicle fltenth", "'f1tenth'"},
+                                      {"bench --family swpa", "'swap'"},
+                                      {"bench --family everyday --kind dor", "'door'"},
+                                      {"simulate s.yaml --noise hihg", "'high'"},
+                                      {"simulate s.yaml --fault brekdown:left@1", "'breakdown'"}}) {
+    const Outcome outcome = scratch.run(command);
+    EXPECT_EQ(outcome.status, 2) << command;
+    EXPECT_NE(outcome.err.find(std::string("did you mean ") + hint), std::string::npos) << outcome.err;
+    EXPECT_TRUE(is_one_line(outcome.err)) << outcome.err;
+  }
+}
+
+/// Numbers beyond the range are refused, never cut off to it, in words that name the range.
+TEST(Usage, NumbersBeyondTheRangeAreRefused) {
+  const Scratch scratch;
+  scratch.write("s.yaml", two_cars());
+  for (const char* command :
+       {"plan s.yaml --seed -1", "plan s.yaml --seed 18446744073709551616", "plan s.yaml --seed 1.5",
+        "generate random --seed -1", "generate random --robots 99999999999999999999",
+        "generate random --robots 2.5", "generate random --robots 0", "plan s.yaml --threads 4294967297",
+        "bench s.yaml --limit 0", "bench --family swap --seeds -3", "bench --family swap --seeds 0",
+        "bench --family swap --robots 2 -1", "bench s.yaml --best-of 1e2"}) {
+    const Outcome outcome = scratch.run(command);
+    EXPECT_EQ(outcome.status, 2) << command << outcome.out;
+    EXPECT_NE(outcome.err.find("whole number from"), std::string::npos) << command << ": " << outcome.err;
+  }
+  EXPECT_EQ(scratch.run("generate random --robots 2 --seed 18446744073709551615").status, 0);
+  EXPECT_EQ(scratch.run("generate everyday --robots 3").status, 2);
 }
 
 }  // namespace

@@ -1,8 +1,13 @@
 #include "seine/base/workers.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
+#include <new>
 #include <vector>
 
 namespace seine {
@@ -45,6 +50,48 @@ TEST(Workers, MakeTheirWritesVisibleToTheCaller) {
     for (int i = 0; i < 500; ++i) ASSERT_EQ(values[static_cast<std::size_t>(i)], round * i);
   }
 }
+
+TEST(Workers, WhatIsThrownComesOutOnceAndTheNextRoundIsWhole) {
+  for (const int threads : {1, 2, 4}) {
+    Workers workers(threads);
+    for (int round = 0; round < 100; ++round) {
+      EXPECT_THROW(workers.run(20,
+                               [&](int i) {
+                                 if (i % 7 == round % 7) throw std::bad_alloc();
+                               }),
+                   std::bad_alloc);
+      std::atomic<int> calls{0};
+      workers.run(20, [&](int) { ++calls; });
+      ASSERT_EQ(calls.load(), 20);
+    }
+  }
+}
+
+TEST(Workers, MoreIndicesThanOneRoundHolds) {
+  Workers workers(3);
+  constexpr int kCount = (1 << 21) + 5;
+  std::vector<char> seen(kCount, 0);
+  workers.run(kCount, [&](int i) { ++seen[static_cast<std::size_t>(i)]; });
+  EXPECT_EQ(std::count(seen.begin(), seen.end(), 1), kCount);
+}
+
+#ifndef SEINE_SANITIZED
+// A process that may have no more memory, and so no stacks, works with the threads it gets.
+TEST(Workers, ThreadsThatCannotBeHadAreDoneWithout) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    const rlimit limit{std::size_t{150} << 20, std::size_t{150} << 20};
+    ::setrlimit(RLIMIT_AS, &limit);
+    Workers workers(500);
+    std::atomic<int> calls{0};
+    workers.run(100, [&](int) { ++calls; });
+    ::_exit(workers.count() < 500 && calls.load() == 100 ? 0 : 1);
+  }
+  int status = -1;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status;
+}
+#endif
 
 }  // namespace
 }  // namespace seine

@@ -53,7 +53,7 @@ class Run {
       : scenario_(scenario),
         options_(options),
         settings_(settings),
-        deadline_(options.deadline_s),
+        deadline_(options.deadline_s, options.cancelled),
         workers_(options.threads),
         map_(scenario) {}
 

@@ -165,5 +165,45 @@ TEST(Check, WithoutAMarginTouchingIsAllowed) {
   EXPECT_EQ(complaints(s).size(), 1U);
 }
 
+TEST(Check, ScenariosBuiltInCodeAreLookedAt) {
+  EXPECT_NO_THROW(expect_numbers(good()));
+  Scenario bad = good();
+  bad.robots[0].model = -1;
+  EXPECT_THROW(expect_numbers(bad), Unsound);
+  bad = good();
+  bad.robots[0].start.x = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(expect_numbers(bad), Unsound);
+  bad = good();
+  bad.margins.robot = -1.0;
+  EXPECT_THROW(expect_numbers(bad), Unsound);
+  bad = good();
+  bad.map = geom::OccupancyGrid{.width = 40, .height = 40, .resolution = 0.1, .origin = {}, .occupied = {}};
+  bad.map->occupied.assign(7, 1);
+  EXPECT_THROW(StaticMap{bad}, InputError);
+}
+
+TEST(Check, SaysWhosePlaceItIsAndWhatOnlyHasNoAnswer) {
+  Scenario scenario = good();
+  const geom::Pose2 goal = *scenario.robots[1].goal;
+  Obstacle mover{.name = "van", .shape = Circle{{}, 0.3}, .motion = {}};
+  mover.motion = {{0.0, {goal.x, goal.y + 3.0, 0.0}}, {4.0, goal}};
+  scenario.obstacles.push_back(mover);
+  const StaticMap map(scenario);
+  const Complaints found = examine(scenario, map);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].robot, 1);
+  EXPECT_TRUE(found[0].goal);
+  EXPECT_TRUE(found[0].impossible);
+  EXPECT_NE(expect_sound(scenario, map).find("van"), std::string::npos);
+  scenario.robots[0].start = scenario.robots[1].start;
+  try {
+    expect_sound(scenario, StaticMap(scenario));
+    FAIL();
+  } catch (const Unsound& unsound) {
+    EXPECT_FALSE(unsound.complaints().front().goal);
+    EXPECT_EQ(unsound.complaints().front().robot, 0);
+  }
+}
+
 }  // namespace
 }  // namespace seine::world

@@ -5,10 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numbers>
 #include <string>
+#include <tuple>
 #include <vector>
 
+#include "seine/base/error.hpp"
 #include "seine/net/shape.hpp"
 #include "seine/world/check.hpp"
 
@@ -214,6 +217,26 @@ TEST(CheckNet, ADeliveryThatContradictsTheRest) {
         s.robots[0].goal->x += 0.3;
       },
       {"car0 and car1 hold the net", "at the goals"});
+}
+
+TEST(NetCheck, ACovarianceIsOne) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const auto& [i, j, value] :
+       {std::tuple{0, 0, nan}, {0, 0, -1.0}, {5, 5, -1e-3}, {0, 1, 0.5}, {2, 3, nan}}) {
+    Scenario s = good();
+    s.targets[0].covariance[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] = value;
+    EXPECT_THROW(expect_numbers(s), InputError) << i << j << value;
+  }
+  Scenario s = good();
+  auto& c = s.targets[0].covariance;
+  for (std::size_t k = 0; k < 6; ++k) c[k][k] = 0.01;
+  c[0][3] = c[3][0] = 0.0099;
+  EXPECT_NO_THROW(expect_numbers(s));
+  c[0][3] = c[3][0] = 0.011;  // more than two variances allow
+  EXPECT_THROW(expect_numbers(s), InputError);
+  s = good();
+  s.targets[0].position.z = nan;
+  EXPECT_THROW(expect_numbers(s), InputError);
 }
 
 }  // namespace
