@@ -2,7 +2,9 @@
 #include "seine/certify/certificate.hpp"
 
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "apps/seine/command.hpp"
 #include "apps/seine/output.hpp"
@@ -29,6 +31,15 @@ edited by hand or come from another program. Exit status 0: every limit is kept;
 Example
   seine certify team.yaml plan.json)";
 
+/// A line for a plan that was made for another question: the verdict is on this one all the same.
+std::string note_on(const std::optional<std::vector<std::string>>& changed) {
+  if (!changed || changed->empty()) return "";
+  std::string parts;
+  for (const std::string& part : *changed) parts += (parts.empty() ? "" : ", ") + part;
+  return "  note           the plan was made for another scenario (different: " + parts +
+         "); it is judged by this one\n";
+}
+
 int run(const Arguments& arguments, bool json) {
   io::Reading reading;
   const world::Scenario scenario = arguments.scenario.load(reading);
@@ -37,9 +48,11 @@ int run(const Arguments& arguments, bool json) {
   const world::StaticMap map(scenario);
   const certify::Certificate certificate = certify::certify(
       scenario, map, plan.plan, {.threads = arguments.threads, .deadline = Deadline(arguments.deadline)});
-  print(json ? io::report_json(scenario, certificate) : summary(scenario, certificate));
+  const std::optional<std::vector<std::string>> changed = io::changed_since(scenario, plan);
+  print(json ? io::report_json(scenario, certificate, changed)
+             : summary(scenario, certificate) + note_on(changed));
   if (certificate.holds) return kDone;
-  return certificate.undecided() ? kUndecided : kNo;
+  return certificate.verdict() == certify::Verdict::undecided ? kUndecided : kNo;
 }
 
 }  // namespace

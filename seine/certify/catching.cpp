@@ -7,10 +7,15 @@
 #include "seine/certify/tolerances.hpp"
 #include "seine/geom/convex.hpp"
 #include "seine/net/shape.hpp"
+#include "seine/world/flight_path.hpp"
 
 namespace seine::certify {
 
 using geom::Vec2;
+
+namespace {
+constexpr int kMostRiseSteps = 100000;  // of a target that is released below the rim; sane ones need dozens
+}  // namespace
 
 std::vector<std::optional<net::Crossing>> crossings_of(const world::Scenario& scenario) {
   std::vector<std::optional<net::Crossing>> crossings;
@@ -57,6 +62,11 @@ std::vector<net::Catch> CatchCheck::run(const std::vector<std::optional<net::Cro
                   name.c_str(), time));
       continue;
     }
+    if (const auto hit = world::flight_obstruction(context_.scenario, context_.scenario.targets[i], time)) {
+      note(i, hit->time, hit->height, 0.0, time - hit->time,
+           name + " " + world::describe(context_.scenario, *hit));
+    }
+    check_rise(i, time);
     look_at_team(time);
     catches.back() =
         net::measure_catch(net_, context_.scenario.targets[i], *crossings[i], attachments_, motion_);
@@ -134,7 +144,7 @@ void CatchCheck::judge(std::size_t target, const net::Catch& c) {
        "%.4f m inside where it meets the net (%.4f required)"},
       {c.opening, net::kLeastOpening, tolerance::kNetProved, true, "a net open to %.4f (%.4f required)"},
       {c.angle, net::kMaxAngle, tolerance::kStartHeading, false, "%.4f rad from vertical (%.4f allowed)"},
-      {c.speed, fastest, tolerance::kSpeed, false, "%.4f m/s relative to the net (%.4f allowed)"},
+      {c.speed, fastest, tolerance::kCatchSpeed, false, "%.4f m/s relative to the net (%.4f allowed)"},
       {c.bottom, lowest, tolerance::kNetProved, true,
        "%.4f m above the ground at the deepest (%.4f required)"}};
   std::string all;
@@ -157,6 +167,60 @@ void CatchCheck::judge(std::size_t target, const net::Catch& c) {
 void CatchCheck::note(std::size_t target, double time, double value, double limit, double excess,
                       const std::string& what) {
   findings_.push_back({{Kind::target_catch, time, -1, static_cast<int>(target), value, limit, what}, excess});
+}
+
+void CatchCheck::check_rise(std::size_t target, double crossing) {
+  const net::Target& rising = context_.scenario.targets[target];
+  const net::Flight flight(rising);
+  const auto below = [&](double t) { return flight.at(t).position.z - rising.radius < net_.rim(); };
+  // Points of cars go no faster than this: the limits are proved elsewhere.
+  double fastest = 0.0;
+  for (std::size_t k = 0; k < plan_.robots.size(); ++k) {
+    const vehicle::Model& model = context_.scenario.model_of(context_.scenario.robots[k]);
+    double reach = geom::norm(net_.attachments[k].at);
+    for (const Vec2 p : model.footprint) reach = std::max(reach, geom::norm(p));
+    const double bend = std::tan(model.limits.steering) / model.wheelbase;
+    fastest =
+        std::max(fastest, std::max(model.limits.speed, model.limits.reverse_speed) * (1.0 + bend * reach));
+  }
+  const double speed = fastest + std::hypot(rising.velocity.x, rising.velocity.y, rising.velocity.z) +
+                       net::kGravity * (crossing - rising.time);
+  int steps = 0;
+  for (double t = rising.time; t < crossing && below(t) && flight.at(t).velocity.z > 0.0; ++steps) {
+    const Vec2 at = flight.at(t).position.ground();
+    const auto [gap, through] = nearest_of_team(at, std::max(t, 0.0));
+    const double left = gap - rising.radius;
+    if (left < tolerance::kNetProved || steps > kMostRiseSteps) {
+      note(target, t, left, 0.0, std::max(-left, tolerance::kNetProved),
+           format("%s rises through %s at t = %.4f s, below the rim of the net",
+                  context_.target_name(static_cast<int>(target)).c_str(), through.c_str(), t));
+      return;
+    }
+    t += left / speed;
+  }
+}
+
+std::pair<double, std::string> CatchCheck::nearest_of_team(Vec2 at, double t) {
+  look_at_team(t);
+  std::pair<double, std::string> nearest{geom::distance(std::span(&at, 1), geom::convex_hull(attachments_)),
+                                         "the net"};
+  for (std::size_t k = 0; k < plan_.robots.size(); ++k) {
+    const geom::Convex car = geom::placed(
+        {context_.scenario.model_of(context_.scenario.robots[k]).footprint, 0.0}, plan_.robots[k].at(t).pose);
+    const double gap = geom::distance(std::span(&at, 1), car.core);
+    if (gap < nearest.first) nearest = {gap, context_.robot_name(static_cast<int>(k))};
+  }
+  return nearest;
+}
+
+std::vector<Finding> check_payload(const Context& context) {
+  if (!context.scenario.payload) return {};
+  const double radius = context.scenario.payload->radius;
+  const double widest = net::inradius(context.scenario.net->rest);
+  if (radius <= widest) return {};
+  return {{{Kind::net_holding, 0.0, -1, -1, widest, radius,
+            format("the payload has a radius of %.4f m; the net has room for %.4f m", radius, widest)},
+           radius - widest}};
 }
 
 std::vector<Finding> check_delivery(const Context& context, const traj::TeamTrajectory& plan) {

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "seine/certify/clearance.hpp"
@@ -39,6 +41,11 @@ class CatchCheck {
   /// The highest of the obstacles under the net at time t that the net passes over, m.
   double highest_under(double t) const;
   void judge(std::size_t target, const net::Catch& caught);
+  /// Notes a target that is released below the rim and rises through the net or a car, each taken to be as
+  /// tall as the rim. Looked at by conservative advancement: nothing is met between two looks.
+  void check_rise(std::size_t target, double crossing);
+  /// How far a point on the ground is from the net's polygon and from all cars at time t, m, and from which.
+  std::pair<double, std::string> nearest_of_team(geom::Vec2 at, double t);
   void note(std::size_t target, double time, double value, double limit, double excess,
             const std::string& what);
 
@@ -50,6 +57,9 @@ class CatchCheck {
   net::Motion motion_;  // of their mean
   std::vector<Finding> findings_;
 };
+
+/// Whether there is room for the payload in the net when it is spread flat.
+std::vector<Finding> check_payload(const Context& context);
 
 /// Where the payload comes to rest with the team, and which way every car then faces.
 std::vector<Finding> check_delivery(const Context& context, const traj::TeamTrajectory& plan);

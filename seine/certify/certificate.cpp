@@ -78,7 +78,7 @@ class Proof {
   std::vector<Finding> run(Certificate& certificate) {
     if (with_net_) crossings_ = crossings_of(context_.scenario);
     const Phases phases = phases_of(context_.scenario, crossings_);
-    context_.braking_from = phases.first_catch();
+    context_.braking_from = phases.loaded;
     context_.carries = carries_of(context_.scenario, crossings_);
     scene_.horizon = horizon_of(context_.scenario, plan_, phases);
     chart_robots();
@@ -175,6 +175,13 @@ class Proof {
 };
 
 }  // namespace
+
+Verdict Certificate::verdict() const {
+  if (holds) return Verdict::holds;
+  const bool open = std::all_of(violations.begin(), violations.end(),
+                                [](const Violation& v) { return v.kind == Kind::undecided; });
+  return open && !violations.empty() ? Verdict::undecided : Verdict::refuted;
+}
 
 Certificate certify(const world::Scenario& scenario, const world::StaticMap& map,
                     const traj::TeamTrajectory& plan, const Options& options) {

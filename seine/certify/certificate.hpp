@@ -44,7 +44,7 @@ enum class Kind {
   braking,       ///< a car brakes or accelerates too hard for what lies in the net
   carrying,      ///< a car drives so fast that the air may blow what lies in the net out of it
   delivery,      ///< the team does not come to rest where it must
-  undecided,     ///< the proof ran out of its deadline or its depth: no proof, and no refutation
+  undecided,     ///< the proof ran out of its deadline or its depth: the plan does not hold
 };
 const char* name_of(Kind kind);
 
@@ -78,6 +78,12 @@ struct NetRoom {
   Closest holding;
 };
 
+enum class Verdict {
+  holds,      ///< proved
+  refuted,    ///< something is broken, and `violations` says what
+  undecided,  ///< neither: time or depth ran out, and nothing broken was met until then
+};
+
 /// The verdict on one plan.
 struct Certificate {
   bool holds = false;
@@ -88,11 +94,7 @@ struct Certificate {
   std::vector<net::Catch> catches;  ///< one a target, in their order; NaN where it is never in reach
   double seconds = 0.0;             ///< wall time of the proof
 
-  /// Neither proved nor refuted: nothing that is broken was found, but the proof did not come to its end.
-  bool undecided() const {
-    return !violations.empty() &&
-           std::ranges::all_of(violations, [](const Violation& v) { return v.kind == Kind::undecided; });
-  }
+  Verdict verdict() const;
 };
 
 struct Options {

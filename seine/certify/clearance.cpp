@@ -53,7 +53,7 @@ class RobotClearance {
     const world::Margins& margins = context_.scenario.margins;
     if (!(margins.leaving.value_or(margins.obstacle) < margins.obstacle)) return;
     std::vector<Vec2> placed(mover_.core.size());
-    const double wanted = margins.obstacle - tolerance::kGapSeen;
+    const double wanted = margins.obstacle - tolerance::kGapSeen * smallest_size(context_.scenario);
     std::size_t cell = 0;
     for (long step = 0;; ++step) {
       const double t = static_cast<double>(step) * kFreeStep;
@@ -88,10 +88,11 @@ class RobotClearance {
   void report(Kind kind, int other, const Episodes& episodes) {
     for (const auto& e : episodes.all()) {
       const double margin = margin_of(kind, e.time);
+      const auto [found, needed] = told_apart(e.value, margin);
       out_.findings.push_back({{kind, e.time, robot_, other, e.value, margin,
-                                format("%s comes within %.4f m of %s at t = %.4f s; %.4f m is required",
-                                       context_.robot_name(robot_).c_str(), e.value,
-                                       name_of_other(kind, other).c_str(), e.time, margin)},
+                                format("%s comes within %s m of %s at t = %.4f s; %s m is required",
+                                       context_.robot_name(robot_).c_str(), found.c_str(),
+                                       name_of_other(kind, other).c_str(), e.time, needed.c_str())},
                                margin - e.value});
     }
   }

@@ -12,7 +12,7 @@ namespace seine::certify {
 /// a gear), otherwise what is wrong with it.
 std::string why_malformed(const traj::RobotTrajectory& trajectory);
 
-/// Start, goal, rests and the joints between pieces and segments. Needs a well-formed trajectory.
+/// Start, goal and whether the numbers are precise enough. Needs a well-formed trajectory.
 std::vector<Finding> check_form(const Context& context, int robot, const traj::RobotTrajectory& trajectory);
 
 }  // namespace seine::certify

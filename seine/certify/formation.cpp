@@ -1,6 +1,7 @@
 #include "seine/certify/formation.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "seine/net/catch_rules.hpp"
 
@@ -59,6 +60,11 @@ Formation::Formation(const net::Net& net, std::span<const Mover* const> robots, 
     : robots_(robots.begin(), robots.end()) {
   for (const net::Attachment& attachment : net.attachments) held_at_.push_back(attachment.at);
   const std::vector<double> changes = changes_of(phases);
+  std::size_t expected = changes.size();  // beats, unless cells end together
+  for (const Mover* robot : robots_) expected += robot->cells.size();
+  expected = std::min(expected, kMostBeats);
+  beats_.reserve(expected), cells_.reserve(expected * size()), bends_.reserve(expected * size());
+  from_.reserve(expected * size()), to_.reserve(expected * size());
   std::vector<std::size_t> at(size(), 0);
   auto change = changes.begin();
   for (double t = 0.0; t < horizon || beats_.empty();) {
@@ -80,7 +86,8 @@ Formation::Formation(const net::Net& net, std::span<const Mover* const> robots, 
 
 void Formation::add_beat(double t0, double t1, const Phases& phases, std::span<const std::size_t> at) {
   const std::size_t first = cells_.size(), before = first - size();
-  beats_.push_back({t0, t1, t0 >= phases.loaded, phases.held(t0), first});
+  beats_.push_back(
+      {.t0 = t0, .t1 = t1, .loaded = t0 >= phases.loaded, .held = phases.held(t0), .first = first});
   for (std::size_t k = 0; k < size(); ++k) {
     const Cell* cell = &robots_[k]->cells[at[k]];
     const bool same = first > 0 && cells_[before + k] == cell;
@@ -89,6 +96,23 @@ void Formation::add_beat(double t0, double t1, const Phases& phases, std::span<c
     from_.push_back(same ? to_[before + k] : attachment(k, *cell, t0));
     to_.push_back(attachment(k, *cell, t1));
   }
+  measure_stray(beats_.back());
+}
+
+void Formation::measure_stray(Beat& beat) {
+  const Slice now = slice(beat);
+  Vec2 common;  // what all move by
+  for (std::size_t k = 0; k < size(); ++k) common += now.to[k] - now.from[k];
+  common = common / static_cast<double>(size());
+  double jump = 0.0, moved = 0.0, loss = 0.0;
+  for (std::size_t k = 0; k < size(); ++k) {
+    if (beat.first > 0) jump = std::max(jump, geom::squared_norm(now.from[k] - to_[beat.first - size() + k]));
+    moved = std::max(moved, geom::squared_norm(now.to[k] - now.from[k] - common));
+    loss = std::max(loss, now.loss(k));
+  }
+  const double before = beats_.size() > 1 ? beats_[beats_.size() - 2].strayed : 0.0;
+  beat.strayed = before + std::sqrt(jump) + std::sqrt(moved);
+  beat.strayed_within = beat.strayed + loss;
 }
 
 Vec2 Formation::attachment(std::size_t k, const Cell& cell, double t) const {

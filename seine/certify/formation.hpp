@@ -25,6 +25,10 @@ struct Beat {
   bool loaded = false;
   bool held = false;
   std::size_t first = 0;  ///< its entries in the formation's tables begin here, one a car
+  /// By how much the shape has changed from t = 0 to the end of the beat at most, m: between the end of an
+  /// earlier beat and now every attachment has moved by no more than the difference, but for one translation
+  /// of all. `strayed_within`: to any instant of the beat.
+  double strayed = 0.0, strayed_within = 0.0;
 };
 
 /// A part of a beat with the attachments at its ends.
@@ -61,6 +65,7 @@ class Formation {
 
  private:
   void add_beat(double t0, double t1, const Phases& phases, std::span<const std::size_t> at);
+  void measure_stray(Beat& beat);
   geom::Vec2 attachment(std::size_t k, const Cell& cell, double t) const;
 
   std::vector<const Mover*> robots_;

@@ -17,13 +17,15 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 }  // namespace
 
 GapProof::GapProof(Context& context, double margin)
-    : context_(context), levels_(static_cast<std::size_t>(kDeepest) + 3) {
+    : context_(context),
+      size_(smallest_size(context.scenario)),
+      levels_(static_cast<std::size_t>(kDeepest) + 3) {
   require(margin);
 }
 
 void GapProof::require(double margin) {
-  seen_ = margin - tolerance::kGapSeen;
-  proved_ = margin - tolerance::kGapProved;
+  seen_ = margin - tolerance::kGapSeen * size_;
+  proved_ = margin - tolerance::kGapProved * size_;
 }
 
 void GapProof::between(const Mover& a, const Mover& b) {
@@ -31,7 +33,7 @@ void GapProof::between(const Mover& a, const Mover& b) {
   b_ = &b;
   radii_ = a.radius + b.radius;
   normal_ = {};
-  resize(a.core.size(), b.core.size());
+  points_a_ = a.core.size(), points_b_ = b.core.size();
 }
 
 void GapProof::between(const Mover& a, std::span<const Vec2> fixed, double radius) {
@@ -40,12 +42,14 @@ void GapProof::between(const Mover& a, std::span<const Vec2> fixed, double radiu
   fixed_ = fixed;
   radii_ = a.radius + radius;
   normal_ = {};
-  resize(a.core.size(), levels_.front().b.size());
+  points_a_ = a.core.size();
 }
 
-void GapProof::resize(std::size_t a, std::size_t b) {
-  if (levels_.front().a.size() == a && levels_.front().b.size() == b) return;
-  for (Placed& placed : levels_) placed.a.resize(a), placed.b.resize(b);
+GapProof::Placed& GapProof::level(int depth) {
+  Placed& placed = levels_[static_cast<std::size_t>(depth)];
+  if (placed.a.size() != points_a_) placed.a.resize(points_a_);
+  if (placed.b.size() != points_b_) placed.b.resize(points_b_);
+  return placed;
 }
 
 double GapProof::wanted() const {

@@ -54,7 +54,6 @@ class GapProof {
   struct Placed {
     std::vector<geom::Vec2> a, b;
   };
-  void resize(std::size_t a, std::size_t b);
   void place(double t, Placed& out) const;
   double gap_along(geom::Vec2 normal, const Placed& at) const;
   void met(double distance, double time);
@@ -62,10 +61,12 @@ class GapProof {
   void refine_inside(const geom::Box& bounds, double t0, double gap0, double t1, double gap1, int depth);
   double gap_inside(const geom::Box& bounds, double t);
   bool give_up(double time, int depth);
-  Placed& level(int depth) { return levels_[static_cast<std::size_t>(depth)]; }
+  /// Room for both bodies' points; one for each depth of the halving, made when it is first reached.
+  Placed& level(int depth);
   std::optional<Worst> result() const;
 
   Context& context_;
+  double size_;           // Granted::size of the smallest car
   double seen_, proved_;  // m
   const Mover* a_ = nullptr;
   const Mover* b_ = nullptr;
@@ -77,6 +78,7 @@ class GapProof {
   geom::Vec2 normal_;  // the last one that parted this pair; zero: none yet
   Worst worst_{};
   int steps_ = 0;
+  std::size_t points_a_ = 0, points_b_ = 0;
   std::vector<Placed> levels_;
 };
 

@@ -6,7 +6,6 @@
 #include "seine/certify/slice_bounds.hpp"
 #include "seine/certify/tolerances.hpp"
 #include "seine/net/hanging.hpp"
-#include "seine/net/shape.hpp"
 
 namespace seine::certify {
 namespace {
@@ -16,25 +15,17 @@ using geom::Vec2;
 constexpr int kMostSteps = 1 << 16;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// The deepest sag of a cloth between two attachments whose distance is somewhere in [nearest, furthest].
-double deepest_sag(double nearest, double furthest, double rest) {
-  const double middle = 0.5 * rest;  // where the parabola is deepest
-  if (nearest <= middle && middle <= furthest) return net::sag(middle, rest);
-  return std::max(net::sag(nearest, rest), net::sag(furthest, rest));
-}
-
 }  // namespace
 
 Height::Height(const net::Net& net) : net_(net), share_(0.5 * (1.0 - 1.0 / static_cast<double>(net.size()))) {
   for (std::size_t i = 0; i < net.size(); ++i) {
-    for (std::size_t j = i + 1; j < net.size(); ++j) pairs_.push_back({i, j, net::rest_distance(net, i, j)});
+    for (std::size_t j = i + 1; j < net.size(); ++j) pairs_.push_back({i, j});
   }
   least_squares_.resize(pairs_.size());
   shapes_.reserve(kMostShapes);
 }
 
-double Height::at(bool loaded, std::span<const Vec2> attachments) {
-  if (!loaded) return net_.rim() - net::empty_depth(net_, attachments);
+double Height::at(std::span<const Vec2> attachments) {
   const double depth = net::loaded_depth(net_, attachments);
   if (shapes_.size() < kMostShapes) shapes_.push_back({0.0, std::vector<double>(pairs_.size())});
   Shape& shape = shapes_[next_];
@@ -47,19 +38,13 @@ double Height::at(bool loaded, std::span<const Vec2> attachments) {
 }
 
 double Height::least(const Slice& slice) {
-  double sagging = 0.0;
-  for (std::size_t p = 0; p < pairs_.size(); ++p) {
-    const auto [i, j, rest] = pairs_[p];
-    least_squares_[p] = least_square_apart(slice, i, j);
-    if (!slice.beat->loaded)
-      sagging =
-          std::max(sagging, deepest_sag(std::sqrt(least_squares_[p]), furthest_apart(slice, i, j), rest));
-  }
-  return net_.rim() - (slice.beat->loaded ? std::sqrt(loaded_depth_squared()) : sagging);
+  for (std::size_t p = 0; p < pairs_.size(); ++p)
+    least_squares_[p] = least_square_apart(slice, pairs_[p].i, pairs_[p].j);
+  return net_.rim() - std::sqrt(depth_squared());
 }
 
 /// An upper bound of D² for all shapes whose squared distances are at least `least_squares_`.
-double Height::loaded_depth_squared() const {
+double Height::depth_squared() const {
   double bound = kInfinity;
   for (const Shape& shape : shapes_) {
     double decrease = 0.0;
@@ -70,29 +55,44 @@ double Height::loaded_depth_squared() const {
   return bound;
 }
 
+// Every attachment moved by s, a squared distance q decreases by 4 s √q at most, and D² grows by that times
+// the share.
+double Height::reserve(const Slice& slice, double least, double wanted) const {
+  double longest = 0.0;
+  for (const Pair& pair : pairs_)
+    longest = std::max(longest, geom::squared_norm(slice.to[pair.i] - slice.to[pair.j]));
+  const double depth = net_.rim() - least, allowed = net_.rim() - wanted;
+  return (allowed * allowed - depth * depth) / (4.0 * share_ * std::sqrt(longest));
+}
+
 DragProof::DragProof(Context& context, const Formation& formation, Height& height)
     : context_(context),
       formation_(formation),
       height_(height),
       clearance_(context.scenario.net->clearance),
-      levels_(static_cast<std::size_t>(kDeepest), std::vector<Vec2>(formation.size())) {}
+      levels_(static_cast<std::size_t>(kDeepest)) {}
 
 void DragProof::run() {
   glimpse();
   for (const Beat& beat : formation_.beats()) {
     worst_ = 0.0;
+    if (beat.strayed_within <= lasts_) continue;
     const Slice slice = formation_.slice(beat);
-    if (!keeps(slice)) refine(slice, 0);
+    const double least = height_.least(slice);
+    if (!(least - clearance_ >= wanted())) {
+      refine(slice, 0);
+    } else {
+      lasts_ = beat.strayed + height_.reserve(slice, least, clearance_ + wanted());
+    }
   }
 }
 
-/// Looks first where the loaded net is narrowest: it hangs deepest about there, and what hangs less deep
+/// Looks first where the net is narrowest: it hangs deepest about there, and what hangs less deep
 /// need not be resolved.
 void DragProof::glimpse() {
   const Beat* narrowest = nullptr;
   double least = kInfinity;
   for (const Beat& beat : formation_.beats()) {
-    if (!beat.loaded) continue;
     const auto at = formation_.slice(beat).from;
     double sum = 0.0;
     for (std::size_t i = 0; i < at.size(); ++i) {
@@ -102,11 +102,11 @@ void DragProof::glimpse() {
   }
   if (narrowest == nullptr) return;
   const Slice slice = formation_.slice(*narrowest);
-  closest_ = {height_.at(true, slice.from) - clearance_, narrowest->t0, -1, -1};
+  closest_ = {height_.at(slice.from) - clearance_, narrowest->t0, -1, -1};
 }
 
 void DragProof::look(const Slice& slice, std::span<const Vec2> at, double time) {
-  const double room = height_.at(slice.beat->loaded, at) - clearance_;
+  const double room = height_.at(at) - clearance_;
   if (room < closest_.clearance) closest_ = {room, time, -1, -1};
   if (room < -tolerance::kNetSeen) {
     worst_ = std::min(worst_, room);
@@ -114,11 +114,13 @@ void DragProof::look(const Slice& slice, std::span<const Vec2> at, double time) 
   }
 }
 
+double DragProof::wanted() const {
+  return worst_ < 0.0 ? worst_ - kHeightResolution
+                      : std::max(-tolerance::kNetProved, closest_.clearance - kHeightResolution);
+}
+
 bool DragProof::keeps(const Slice& slice) {
-  const double wanted = worst_ < 0.0
-                            ? worst_ - kHeightResolution
-                            : std::max(-tolerance::kNetProved, closest_.clearance - kHeightResolution);
-  return height_.least(slice) - clearance_ >= wanted;
+  return height_.least(slice) - clearance_ >= wanted();
 }
 
 void DragProof::refine(const Slice& slice, int depth) {
@@ -131,6 +133,7 @@ void DragProof::refine(const Slice& slice, int depth) {
     return;
   }
   std::vector<Vec2>& at = levels_[static_cast<std::size_t>(depth)];
+  at.resize(formation_.size());
   const double middle = 0.5 * (slice.t0 + slice.t1);
   formation_.place(*slice.beat, middle, at);
   look(slice, at, middle);

@@ -10,23 +10,25 @@ namespace seine::certify {
 
 /// How high above the ground the lowest point of a net hangs, at an instant and at least on a slice.
 ///
-/// Both depths below the rim depend on the distances of the attachments only. Empty, each pair's sag is
-/// bounded over the range of its distance. Loaded, D² grows from one shape to another by at most
-/// ½ (1 − 1/N) times the largest decrease of a squared distance (docs/certificate.md proves it): shapes that
-/// have been computed serve for all that are alike.
+/// No point of the cloth hangs deeper than the place of a load, whether there is one or not: D counts for an
+/// empty net, too. It depends on the distances of the attachments only, and D² grows from one shape to
+/// another by at most ½ (1 − 1/N) times the largest decrease of a squared distance (docs/certificate.md
+/// proves it): shapes that have been computed serve for all that are alike.
 class Height {
  public:
   explicit Height(const net::Net& net);
 
-  /// m above ground; a loaded shape is remembered.
-  double at(bool loaded, std::span<const geom::Vec2> attachments);
+  /// m above ground; the shape is remembered.
+  double at(std::span<const geom::Vec2> attachments);
   /// A lower bound on the slice, m.
   double least(const Slice& slice);
+  /// How far the shape may change from the end of a slice, on which `least` was found, until the
+  /// height can fall to `wanted`, m; negative when it may have already.
+  double reserve(const Slice& slice, double least, double wanted) const;
 
  private:
   struct Pair {
     std::size_t i, j;
-    double rest;  ///< m
   };
   struct Shape {
     double squared_depth;
@@ -34,7 +36,7 @@ class Height {
   };
   static constexpr std::size_t kMostShapes = 8;
 
-  double loaded_depth_squared() const;
+  double depth_squared() const;
 
   const net::Net& net_;
   double share_;  // ½ (1 − 1/N)
@@ -60,6 +62,7 @@ class DragProof {
 
   void glimpse();
   void look(const Slice& slice, std::span<const geom::Vec2> at, double time);
+  double wanted() const;
   bool keeps(const Slice& slice);
   void refine(const Slice& slice, int depth);
 
@@ -67,7 +70,8 @@ class DragProof {
   const Formation& formation_;
   Height& height_;
   double clearance_;
-  double worst_ = 0.0;  // room in the beat at hand; 0 when it does not drag
+  double worst_ = 0.0;   // room in the beat at hand; 0 when it does not drag
+  double lasts_ = -1.0;  // m: up to this Beat::strayed_within the height need not be looked at
   Closest closest_;
   Episodes episodes_;
   std::vector<Finding> undecided_;

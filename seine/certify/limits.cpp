@@ -11,7 +11,8 @@ namespace {
 
 // A cell halved this often is 2^-40 of itself: what is still open then hangs on rounding.
 constexpr int kDeepest = 40;
-constexpr int kMostSteps = 1 << 18;  // of one car; sane plans need some hundred
+// Of one car, and more for each cell: an hour at 99.99 % of a limit takes some 30 for each.
+constexpr std::size_t kMostSteps = 1u << 18, kMostStepsOfCell = 1u << 8;
 // A value met beyond the limit is followed up until nothing in its cell is this much worse, relative to the
 // limit.
 constexpr double kWorstResolution = 1e-3;
@@ -21,35 +22,35 @@ constexpr std::size_t kMostCarries = 20;  // a mask has 32 bits
 const char* describe(Kind kind) {
   switch (kind) {
     case Kind::speed:
-      return "drives forwards at %.6g m/s; its limit is %.6g";
+      return "drives forwards at %s m/s; its limit is %s";
     case Kind::reverse_speed:
-      return "drives backwards at %.6g m/s; its limit is %.6g";
+      return "drives backwards at %s m/s; its limit is %s";
     case Kind::acceleration:
-      return "accelerates or brakes by %.6g m/s²; its limit is %.6g";
+      return "accelerates or brakes by %s m/s²; its limit is %s";
     case Kind::braking:
-      return "accelerates or brakes by %.6g m/s² with something in the net; %.6g is allowed";
+      return "accelerates or brakes by %s m/s² with something in the net; %s is allowed";
     case Kind::carrying:
-      return "drives at %.6g m/s; faster than %.6g the air may blow out of the net what lies in it";
+      return "drives at %s m/s; faster than %s the air may blow out of the net what lies in it";
     case Kind::lateral_acceleration:
-      return "has a lateral acceleration of %.6g m/s²; its limit is %.6g";
+      return "has a lateral acceleration of %s m/s²; its limit is %s";
     case Kind::curvature:
-      return "turns with a curvature of %.6g 1/m; its limit is %.6g";
+      return "turns with a curvature of %s 1/m; its limit is %s";
     case Kind::steering_rate:
-      return "turns its wheel at %.6g rad/s; its limit is %.6g";
+      return "turns its wheel at %s rad/s; its limit is %s";
     default:
-      return "moves against its gear at %.6g m/s; rounding is granted %.6g";
+      return "moves against its gear at %s m/s; rounding is granted %s";
   }
 }
 
 }  // namespace
 
-LimitProof::Rule LimitProof::rule(Kind kind, Quantity quantity, double limit) {
+LimitProof::Rule LimitProof::rule(Kind kind, Quantity quantity, double limit, double unit) {
   return {.kind = kind,
           .quantity = quantity,
           .sign = 0.0,
           .limit = limit,
-          .seen = limit * (1.0 + tolerance::kLimitSeen) + tolerance::kLimitSeenFloor,
-          .proved = limit * (1.0 + tolerance::kLimitProved) + tolerance::kLimitProvedFloor,
+          .seen = limit * (1.0 + tolerance::kLimitSeen) + tolerance::kLimitSeenFloor * unit,
+          .proved = limit * (1.0 + tolerance::kLimitProved) + tolerance::kLimitProvedFloor * unit,
           .episodes = {}};
 }
 
@@ -59,22 +60,24 @@ LimitProof::LimitProof(Context& context, int robot) : context_(context), robot_(
   const vehicle::Limits& limits = model.limits;
   wheelbase_ = model.wheelbase;
   reach_ = model.reach();
-  rules_ = {rule(Kind::speed, pace, limits.speed),
-            rule(Kind::reverse_speed, pace, limits.reverse_speed),
-            rule(Kind::gear, pace, tolerance::kSpeed),
-            rule(Kind::acceleration, tangential, limits.acceleration),
-            rule(Kind::lateral_acceleration, lateral, limits.lateral_acceleration),
-            rule(Kind::curvature, curvature, model.max_curvature()),
-            rule(Kind::steering_rate, steering_rate, limits.steering_rate),
-            rule(Kind::braking, tangential, net::kBraking)};
+  const Granted granted = granted_to(model);
+  const double v = granted.pace, length = model.length(), a_unit = v * v / length;
+  rules_ = {rule(Kind::speed, pace, limits.speed, v),
+            rule(Kind::reverse_speed, pace, limits.reverse_speed, v),
+            rule(Kind::gear, pace, granted.rest, v),
+            rule(Kind::acceleration, tangential, limits.acceleration, a_unit),
+            rule(Kind::lateral_acceleration, lateral, limits.lateral_acceleration, a_unit),
+            rule(Kind::curvature, curvature, model.max_curvature(), 1.0 / length),
+            rule(Kind::steering_rate, steering_rate, limits.steering_rate, v / length),
+            rule(Kind::braking, tangential, net::kBraking, a_unit)};
   for (const Context::Carry& carry : context.carries) {
     if (rules_.size() >= kCarrying + kMostCarries) break;
-    rules_.push_back(rule(Kind::carrying, pace, carry.speed));
+    rules_.push_back(rule(Kind::carrying, pace, carry.speed, v));
     rules_.back().other = carry.target;
   }
   rules_[kBackwards].sign = -1.0;
-  rules_[kBackwards].seen = tolerance::kBackwardsSeen;
-  rules_[kBackwards].proved = tolerance::kSpeed;
+  rules_[kBackwards].seen = tolerance::kBackwardsSeen * granted.rest;
+  rules_[kBackwards].proved = granted.rest;
 }
 
 double LimitProof::measure(const Rule& rule, const Sample& sample) {
@@ -83,14 +86,16 @@ double LimitProof::measure(const Rule& rule, const Sample& sample) {
 }
 
 void LimitProof::check(const Stretch& stretch, const Sample& a, const Sample& b, const Bends& bends,
-                       bool forwards) {
+                       int direction) {
   Mask mask = 0;
+  ++cells_;
+  monotone_ = direction != 0;
   for (std::size_t r = 0; r < rules_.size(); ++r) {
     rules_[r].worst = 0.0;
     if (r < kBraking && !std::isinf(rules_[r].limit)) mask |= 1u << r;
   }
-  mask &= ~(1u << (stretch.gear > 0.0 ? kReverse : kForward));
-  if (forwards) mask &= ~(1u << kBackwards);
+  mask &= ~(1u << (stretch.drive.gear > 0.0 ? kReverse : kForward));
+  if (direction > 0) mask &= ~(1u << kBackwards);
   cell_begin_ = stretch.clock(a.w);
   cell_end_ = stretch.clock(b.w);
   mask = unproved(mask, stretch, a, b, bends);
@@ -112,7 +117,7 @@ void LimitProof::check_from(double begin, std::size_t rule, const Stretch& stret
 LimitProof::Mask LimitProof::unproved(Mask mask, const Stretch& stretch, const Sample& a, const Sample& b,
                                       const Bends& bends) {
   Mask open = 0;
-  const double duration = (b.w - a.w) * stretch.h, range = b.u - a.u;
+  const double duration = (b.w - a.w) * stretch.drive.h, range = b.u - a.u;
   for (std::size_t r = 0; r < rules_.size(); ++r) {
     if ((mask & (1u << r)) == 0) continue;
     Rule& rule = rules_[r];
@@ -122,8 +127,11 @@ LimitProof::Mask LimitProof::unproved(Mask mask, const Stretch& stretch, const S
       rule.worst = std::max(rule.worst, top);
       rule.episodes.offer(cell_begin_, cell_end_, time, top, top - rule.limit);
     }
-    const double width = rule.quantity == curvature ? range : duration;
-    const double bound = top + 0.125 * bends.value[rule.quantity] * width * width;
+    const bool by_curve = rule.quantity == curvature && monotone_;
+    const double width = by_curve ? range : duration;
+    const double bend =
+        rule.quantity == curvature && !monotone_ ? bends.curvature_by_time : bends.value[rule.quantity];
+    const double bound = top + 0.125 * bend * width * width;
     const double wanted = rule.worst > 0.0 ? rule.worst + kWorstResolution * rule.limit : rule.proved;
     if (!(bends.least_length > 0.0 && bound <= wanted)) open |= 1u << r;
   }
@@ -132,7 +140,8 @@ LimitProof::Mask LimitProof::unproved(Mask mask, const Stretch& stretch, const S
 
 void LimitProof::refine(Mask mask, const Stretch& stretch, const Sample& a, const Sample& b, int depth) {
   if (++steps_ % 512 == 0) context_.out_of_time();
-  if (depth >= kDeepest || steps_ > kMostSteps || context_.expired.load(std::memory_order_relaxed)) {
+  if (depth >= kDeepest || steps_ > kMostSteps + kMostStepsOfCell * cells_ ||
+      context_.expired.load(std::memory_order_relaxed)) {
     for (std::size_t r = 0; r < rules_.size(); ++r) {
       if ((mask & (1u << r)) == 0 || rules_[r].worst > 0.0 || rules_[r].undecided) continue;
       rules_[r].undecided = true;
@@ -157,7 +166,8 @@ std::vector<Finding> LimitProof::findings() const {
   for (const Rule& rule : rules_) {
     for (const Episodes::Episode& e : rule.episodes.all()) {
       char what[160];
-      std::snprintf(what, sizeof what, describe(rule.kind), e.value, rule.limit);
+      const auto [value, limit] = told_apart(e.value, rule.limit);
+      std::snprintf(what, sizeof what, describe(rule.kind), value.c_str(), limit.c_str());
       findings.push_back({{rule.kind, e.time, robot_, rule.other, e.value, rule.limit,
                            format("%s at t = %.4f s %s", name.c_str(), e.time, what)},
                           e.excess});

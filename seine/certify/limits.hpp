@@ -15,8 +15,8 @@ class LimitProof {
  public:
   LimitProof(Context& context, int robot);
 
-  /// One cell. @param forwards true when u̇ ≥ 0 is known already.
-  void check(const Stretch& stretch, const Sample& a, const Sample& b, const Bends& bends, bool forwards);
+  /// One cell. @param direction of u: +1 never back, −1 never on, 0 either
+  void check(const Stretch& stretch, const Sample& a, const Sample& b, const Bends& bends, int direction);
   std::vector<Finding> findings() const;
 
  private:
@@ -35,7 +35,8 @@ class LimitProof {
   };
   using Mask = unsigned;
 
-  static Rule rule(Kind kind, Quantity quantity, double limit);
+  /// @param unit of the quantity, for the car at hand
+  static Rule rule(Kind kind, Quantity quantity, double limit, double unit);
   static double measure(const Rule& rule, const Sample& sample);
   /// A limit that holds from a catch on, on what lies after it of a cell.
   void check_from(double begin, std::size_t rule, const Stretch& stretch, const Sample& a, const Sample& b,
@@ -50,7 +51,8 @@ class LimitProof {
   double reach_;
   std::vector<Rule> rules_;  // those of RuleIndex, then one for each of the context's carries
   double cell_begin_ = 0.0, cell_end_ = 0.0;
-  int steps_ = 0;
+  bool monotone_ = true;  // u, on the cell at hand
+  std::size_t steps_ = 0, cells_ = 0;
 };
 
 }  // namespace seine::certify

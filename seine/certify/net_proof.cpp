@@ -54,6 +54,7 @@ NetVerdict prove_net(Context& context, const Scene& scene, const traj::TeamTraje
   underneath.run(scene);
   append(verdict.findings, underneath.take_findings());
 
+  append(verdict.findings, check_payload(context));
   CatchCheck catches(context, plan, scene);
   verdict.catches = catches.run(crossings);
   append(verdict.findings, catches.take_findings());

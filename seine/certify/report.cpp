@@ -108,6 +108,16 @@ std::string format(const char* pattern, ...) {
   return text;
 }
 
+std::pair<std::string, std::string> told_apart(double value, double limit) {
+  constexpr int kFewest = 4, kMost = 17;
+  std::string a, b;
+  for (int digits = kFewest; digits <= kMost && a == b; ++digits) {
+    a = format("%.*g", digits, value);
+    b = format("%.*g", digits, limit);
+  }
+  return {a, b};
+}
+
 std::vector<Violation> worst_of_each(std::vector<Finding> findings, int per_sort) {
   const auto sort_of = [](const Finding& f) {
     return std::tuple(f.violation.kind, f.violation.robot, f.violation.other);

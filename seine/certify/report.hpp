@@ -3,6 +3,7 @@
 #include <atomic>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "seine/certify/certificate.hpp"
@@ -39,7 +40,7 @@ struct Context {
   const world::Scenario& scenario;
   const world::StaticMap& map;
   const Options& options;
-  double braking_from = std::numeric_limits<double>::infinity();  ///< s, the first catch
+  double braking_from = std::numeric_limits<double>::infinity();  ///< s, something lies in the net
   struct Carry {
     double from, speed;  ///< s, m/s
     int target;
@@ -61,6 +62,9 @@ struct Context {
 
 /// printf into a string.
 [[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...);
+
+/// Two numbers as text, with four digits or as many as it takes to tell them apart.
+std::pair<std::string, std::string> told_apart(double value, double limit);
 
 /// The worst `per_sort` of each (kind, robot, other), by time.
 std::vector<Violation> worst_of_each(std::vector<Finding> findings, int per_sort);

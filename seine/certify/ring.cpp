@@ -31,7 +31,6 @@ RingProof::RingProof(Context& context, const Formation& formation)
   add_holding();
   while_held_ = while_loaded_;
   add(while_held_, {.sort = open, .limit = net::kHeldOpening, .episodes = {}});
-  for (Level& level : levels_) level.middle.resize(formation.size());
 }
 
 void RingProof::add(Rules& list, Rule rule) {
@@ -71,18 +70,62 @@ void RingProof::add_holding() {
 
 void RingProof::run() {
   check_start();
+  glimpse();
   Rules left;
+  const Rules* before = nullptr;  // the rules of the last beat, which were looked at where this one begins
   for (const Beat& beat : formation_.beats()) {
     const Slice slice = formation_.slice(beat);
-    const Rules& rules = beat.held ? while_held_ : beat.loaded ? while_loaded_ : always_;
+    due_.clear();
+    const Rules& rules = rules_on(beat);
     for (const std::size_t r : rules) {
-      rules_[r].worst = 0.0;
-      look(rules_[r], slice, slice.from, beat.t0);
-      look(rules_[r], slice, slice.to, beat.t1);
+      Rule& rule = rules_[r];
+      if (beat.strayed_within <= rule.lasts) continue;
+      due_.push_back(r);
+      rule.worst = 0.0;
+      if (before != &rules) look(rule, slice, slice.from, beat.t0);
+      const double found = look(rule, slice, slice.to, beat.t1);
+      rule.lasts = beat.strayed + reserve(rule, slice.to, found);
     }
-    unproved(rules, slice, left);
+    before = &rules;
+    unproved(due_, slice, left);
     if (!left.empty()) refine(left, slice, 0);
   }
+}
+
+const RingProof::Rules& RingProof::rules_on(const Beat& beat) const {
+  return beat.held ? while_held_ : beat.loaded ? while_loaded_ : always_;
+}
+
+/// Looks where the beats end: what has more room than the least met there need not be resolved.
+void RingProof::glimpse() {
+  for (const Beat& beat : formation_.beats()) {
+    const Slice slice = formation_.slice(beat);
+    for (const std::size_t r : rules_on(beat)) {
+      Rule& rule = rules_[r];
+      if (beat.strayed <= rule.lasts) continue;
+      rule.lasts = beat.strayed + reserve(rule, slice.to, look(rule, slice, slice.to, beat.t1));
+    }
+  }
+  for (Rule& rule : rules_) rule.lasts = -1.0;
+}
+
+// With every attachment moved by s at most (and all by anything in common):
+//   a distance changes by 2 s;
+//   a vector product u·v by 2 s (|u| + |v|) + 4 s², which for s ≤ (|u| + |v|) / 10 is 2.4 s (|u| + |v|) at
+//   most;
+//   the distance n·f from an edge e by 2 s + |n' − n| |f'|, and for s ≤ |e| / 4 the normal turns by no more
+//   than asin(2 s / |e|) ≤ 2.1 s / |e|, while |f'| ≤ |f| + |e| / 2.
+double RingProof::reserve(const Rule& rule, std::span<const Vec2> at, double room) const {
+  constexpr double kRounding = 1e-9;  // m, or m²
+  const double spare = room - std::max(0.0, closest_[rule.sort].clearance) - kRounding;
+  if (!(spare > 0.0) || rule.sort == open) return -1.0;
+  if (rule.sort == pair) return spare / 2.0;
+  if (rule.sort == hold) {
+    const double lengths = geom::norm(at[rule.i] - at[rule.other]) + geom::norm(at[rule.j] - at[rule.other]);
+    return std::min(0.1 * lengths, spare / (4.8 * lengths));
+  }
+  const double edge = geom::norm(at[rule.j] - at[rule.i]), to_other = geom::norm(at[rule.other] - at[rule.i]);
+  return std::min(0.25 * edge, spare / (2.0 + 2.1 * (to_other + 0.5 * edge) / edge));
 }
 
 /// Left turns only, the ring could still wind round more than once; how often never changes.
@@ -128,16 +171,17 @@ bool RingProof::keeps(const Rule& rule, const Slice& slice, double wanted) const
   }
 }
 
-void RingProof::look(Rule& rule, const Slice& slice, std::span<const Vec2> at, double time) {
+double RingProof::look(Rule& rule, const Slice& slice, std::span<const Vec2> at, double time) {
   const double found = room(rule, at);
   Closest& closest = closest_[rule.sort];
   if (found < closest.clearance) {
     closest = {found, time, static_cast<int>(rule.i),
                static_cast<int>(rule.sort == pair ? rule.j : rule.other)};
   }
-  if (found >= -tolerance::kNetSeen) return;
+  if (found >= -tolerance::kNetSeen) return found;
   rule.worst = std::min(rule.worst, found);
   rule.episodes.offer(slice.beat->t0, slice.beat->t1, time, found, -found);
+  return found;
 }
 
 /// A broken rule is followed to its worst, others to the least room of all.
@@ -160,6 +204,7 @@ void RingProof::refine(const Rules& rules, const Slice& slice, int depth) {
     return give_up(rules, slice.t0);
   Level& level = levels_[static_cast<std::size_t>(depth)];
   const double middle = 0.5 * (slice.t0 + slice.t1);
+  level.middle.resize(formation_.size());
   formation_.place(*slice.beat, middle, level.middle);
   for (const std::size_t r : rules) look(rules_[r], slice, level.middle, middle);
   Slice halves[2] = {slice, slice};

@@ -34,6 +34,7 @@ class RingProof {
     std::size_t other = 0;     ///< … and an attachment that is no end of it
     double limit = 0.0;        ///< m of distance or height; least opening; m², all slack there can be
     double worst = 0.0;        ///< room in the beat at hand; 0 when none is broken
+    double lasts = -1.0;       ///< m: up to this Beat::strayed_within nothing about it need be looked at
     bool undecided = false;    ///< somewhere
     double undecided_time = 0.0;
     Episodes episodes;
@@ -49,11 +50,16 @@ class RingProof {
   void add_pairs_and_corners();
   void add_holding();
   void check_start();
+  void glimpse();
+  const Rules& rules_on(const Beat& beat) const;
   double room(const Rule& rule, std::span<const geom::Vec2> at) const;
   /// Whether the room is at least `wanted` throughout the slice.
   bool keeps(const Rule& rule, const Slice& slice, double wanted) const;
   double wanted(const Rule& rule) const;
-  void look(Rule& rule, const Slice& slice, std::span<const geom::Vec2> at, double time);
+  /// @return the room there
+  double look(Rule& rule, const Slice& slice, std::span<const geom::Vec2> at, double time);
+  /// How far the shape may change from `at` while the room stays above the least one met so far, m.
+  double reserve(const Rule& rule, std::span<const geom::Vec2> at, double room) const;
   /// Of `rules`, those not proved on the slice.
   void unproved(const Rules& rules, const Slice& slice, Rules& open);
   void refine(const Rules& rules, const Slice& slice, int depth);
@@ -69,6 +75,7 @@ class RingProof {
   Rules always_, while_loaded_, while_held_;
   std::array<Closest, kSorts> closest_;
   std::vector<Level> levels_;
+  Rules due_;  // of the beat at hand
   std::vector<Finding> start_;
   int steps_ = 0;
 };

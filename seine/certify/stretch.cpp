@@ -37,44 +37,32 @@ std::array<double, 6> magnitudes_within(const std::array<double, 6>& at, double 
 }  // namespace
 
 Frame Stretch::frame(double w) const {
-  const Quintic &c = *progress, &a = *x, &b = *y;
-  const double s = c[0] + w * (c[1] + w * (c[2] + w * (c[3] + w * (c[4] + w * c[5])))) - knot;
-  const Vec2 p{a[0] + s * (a[1] + s * (a[2] + s * (a[3] + s * (a[4] + s * a[5])))),
-               b[0] + s * (b[1] + s * (b[2] + s * (b[3] + s * (b[4] + s * b[5]))))};
-  const Vec2 d{a[1] + s * (2.0 * a[2] + s * (3.0 * a[3] + s * (4.0 * a[4] + s * 5.0 * a[5]))),
-               b[1] + s * (2.0 * b[2] + s * (3.0 * b[3] + s * (4.0 * b[4] + s * 5.0 * b[5])))};
-  return {p, (gear / geom::norm(d)) * d};
+  const auto [p, tangent] = drive.place(w);
+  return {p, (drive.gear / geom::norm(tangent)) * tangent};
 }
 
 Sample Stretch::sample(double w, double wheelbase) const {
-  const auto q = derivatives(*progress, w);
-  const double u = q[0] - knot, rate = q[1] / h, rate2 = q[2] / (h * h);  // u̇, ü
-  const auto dx = derivatives(*x, u), dy = derivatives(*y, u);
-  const Vec2 p1{dx[1], dy[1]}, p2{dx[2], dy[2]}, p3{dx[3], dy[3]};
-  const double m = geom::norm(p1), m3 = m * m * m;
-  const double along = geom::dot(p1, p2), across = geom::cross(p1, p2);
-  const double kappa = across / m3;
-  const double kappa_u = (geom::cross(p1, p3) - 3.0 * across * along / (m * m)) / m3;
-  const double z = wheelbase * kappa;  // tan φ
-
-  Sample sample{w, u, {{dx[0], dy[0]}, (gear / m) * p1}, {}};
-  sample.value[pace] = m * rate;
-  sample.value[tangential] = m * rate2 + along / m * rate * rate;
-  sample.value[lateral] = across / m * rate * rate;
-  sample.value[curvature] = kappa;
-  sample.value[steering_rate] = wheelbase * kappa_u * rate / (1.0 + z * z);
+  const traj::Flow flow = drive.flow(w);
+  const traj::Rates rates = drive.rates(flow);
+  const double z = wheelbase * rates.curvature;  // tan φ
+  Sample sample{w, flow.u, {flow.p, (drive.gear / rates.length) * flow.p1}, rates.length, {}};
+  sample.value[pace] = drive.gear * rates.speed;
+  sample.value[tangential] = drive.gear * rates.acceleration;
+  sample.value[lateral] = drive.gear * rates.lateral_acceleration;
+  sample.value[curvature] = drive.gear * rates.curvature;
+  sample.value[steering_rate] = drive.gear * wheelbase * rates.curvature_rate / (1.0 + z * z);
   return sample;
 }
 
 Bends Stretch::bends(double w0, double w1, double wheelbase, double reach) const {
-  const double middle = 0.5 * (w0 + w1), inverse = 1.0 / h;
-  auto q = derivatives(*progress, middle);
-  const double u = q[0] - knot;
+  const double middle = 0.5 * (w0 + w1), inverse = 1.0 / drive.h;
+  auto q = derivatives(*drive.progress, middle);
+  const double u = q[0] - drive.knot;
   double scale = 1.0;
   for (double& derivative : q) derivative = std::abs(derivative) * scale, scale *= inverse;
-  const auto b = magnitudes_within(q, 0.5 * (w1 - w0) * h);  // b[k] ≥ |d^k u / dt^k|
+  const auto b = magnitudes_within(q, 0.5 * (w1 - w0) * drive.h);  // b[k] ≥ |d^k u / dt^k|
 
-  const auto dx = derivatives(*x, u), dy = derivatives(*y, u);
+  const auto dx = derivatives(*drive.x, u), dy = derivatives(*drive.y, u);
   std::array<double, 6> length{};
   for (std::size_t k = 1; k < 6; ++k) length[k] = geom::norm(geom::Vec2{dx[k], dy[k]});
   const auto a = magnitudes_within(length, b[0]);  // a[k] ≥ |p^(k)|
@@ -105,6 +93,7 @@ Bends Stretch::bends(double w0, double w1, double wheelbase, double reach) const
   const double k2 = (r2 * r3 + r4) * m + 6.0 * k1 * e1 + 3.0 * k0 * f2;
   const double k3 = (2.0 * r2 * r4 + r5) * m + 9.0 * k2 * e1 + 9.0 * k1 * f2 + 3.0 * k0 * f3;
   bends.value[curvature] = k2;
+  bends.curvature_by_time = k2 * b1 * b1 + k1 * b2;
 
   // φ = atan z, z = Lκ; |d/dz 1/(1 + z²)| ≤ 0.65 and |d²/dz² 1/(1 + z²)| ≤ 2.
   const double z1 = wheelbase * k1, z2 = wheelbase * k2, z3 = wheelbase * k3;

@@ -3,7 +3,7 @@
 #include <array>
 
 #include "seine/geom/vec2.hpp"
-#include "seine/traj/trajectory.hpp"
+#include "seine/traj/drive.hpp"
 #include "seine/vehicle/model.hpp"
 
 namespace seine::certify {
@@ -23,6 +23,7 @@ struct Sample {
   double w = 0.0;  ///< local parameter of the progress piece, in [0, 1]
   double u = 0.0;  ///< local parameter of the curve piece
   Frame frame;
+  double length = 0.0;                      ///< |p'|, m
   std::array<double, kQuantities> value{};  ///< m/s, m/s², m/s², 1/m, rad/s
 };
 
@@ -33,20 +34,16 @@ struct Bends {
   double half_range = 0.0;                  ///< u stays within this of its value in the middle
   double vertex = 0.0;                      ///< of the acceleration of any footprint point, m/s²
   std::array<double, kQuantities> value{};  ///< of |second derivative|: by t in s, for the curvature by u
+  double curvature_by_time = 0.0;           ///< of the curvature's second derivative by t in s
 };
 
 /// One quintic of the curve driven by one quintic of the progress: everything on it is analytic.
 struct Stretch {
-  const traj::Quintic* x = nullptr;
-  const traj::Quintic* y = nullptr;
-  const traj::Quintic* progress = nullptr;
-  double knot = 0.0;   ///< u where the curve piece begins
+  traj::Drive drive;   ///< the formula of the plan
   double begin = 0.0;  ///< s, common clock, where the progress piece begins
-  double h = 1.0;      ///< s, duration of the progress piece
-  double gear = 1.0;   ///< η
 
-  double clock(double w) const { return begin + h * w; }
-  double local(double t) const { return (t - begin) / h; }
+  double clock(double w) const { return begin + drive.h * w; }
+  double local(double t) const { return (t - begin) / drive.h; }
   Frame frame(double w) const;
   Sample sample(double w, double wheelbase) const;
   /// @param reach largest distance of a footprint point from the rear axle, m

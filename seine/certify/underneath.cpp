@@ -27,7 +27,6 @@ UnderneathProof::UnderneathProof(Context& context, const Formation& formation, H
       lowest_(lowest),
       clearance_(context.scenario.net->clearance),
       levels_(static_cast<std::size_t>(kDeepest) + 2) {
-  for (Placed& placed : levels_) placed.net.resize(formation.size());
   closest_.clearance = kNetSearch;
 }
 
@@ -153,8 +152,7 @@ void UnderneathProof::refine(const Slice& slice, const Placed& from, const Place
   const Vec2 normal = parted.normal;
   // The height is asked only where it can matter.
   const bool by_height = std::isfinite(other_.needed) && distance < closest_.clearance;
-  met(by_height ? std::max(distance, height_.at(slice.beat->loaded, at.net) - other_.needed) : distance,
-      middle);
+  met(by_height ? std::max(distance, height_.at(at.net) - other_.needed) : distance, middle);
   Slice halves[2] = {slice, slice};
   halves[0].t1 = halves[1].t0 = middle;
   halves[0].to = halves[1].from = at.net;

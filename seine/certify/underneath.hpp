@@ -65,7 +65,11 @@ class UnderneathProof {
   void met(double room, double time);
   bool give_up(double time, int depth);
   double wanted() const;
-  Placed& level(int depth) { return levels_[static_cast<std::size_t>(depth)]; }
+  Placed& level(int depth) {
+    Placed& placed = levels_[static_cast<std::size_t>(depth)];
+    placed.net.resize(formation_.size());
+    return placed;
+  }
 
   void report(int other, const std::string& name, double height, const Episodes& episodes);
   void report_undecided(int other, const std::string& name);

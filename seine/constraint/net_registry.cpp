@@ -8,7 +8,6 @@
 #include "seine/constraint/net_hold.hpp"
 #include "seine/constraint/net_opening.hpp"
 #include "seine/constraint/net_radius.hpp"
-#include "seine/constraint/net_sag.hpp"
 #include "seine/constraint/net_spread.hpp"
 #include "seine/constraint/net_stretch.hpp"
 #include "seine/geom/pose2.hpp"
@@ -120,7 +119,6 @@ std::vector<math::Formula> net_registry() {
           {"net_hold", 6, hold_entry, draw_ring},
           of_ring("net_opening", net_opening),
           of_ring("net_radius", radius_of_ring),
-          pair("net_sag", net_sag),
           of_ring("net_spread", net_spread),
           pair("net_stretch", net_stretch)};
 }

@@ -11,6 +11,8 @@
 namespace seine::drive {
 namespace {
 
+constexpr double kFarthest = 3.0;  // s
+
 // A car's tracker and room for its reference.
 struct Driver {
   Driver(const vehicle::Model& car, const mpc::Options& options)
@@ -47,6 +49,15 @@ sim::Control control(Driver& driver, const sim::CarState& now, const sim::Refere
   return {{command.input.acceleration, command.input.steering}, command.source != mpc::Source::tracking};
 }
 
+// As far ahead as the wheel takes from lock to lock: a slow wheel that is late stays late for as long.
+mpc::Options scaled(mpc::Options options, const vehicle::Model& model) {
+  const double lock_to_lock = 2.0 * model.limits.steering / model.limits.steering_rate;
+  const double usual = options.horizon * options.step;
+  const double ahead = std::clamp(lock_to_lock, usual, std::max(usual, kFarthest));
+  options.horizon = static_cast<int>(std::lround(ahead / options.step));
+  return options;
+}
+
 }  // namespace
 
 mpc::Options tracking_options(const sim::Noise& noise) {
@@ -58,7 +69,8 @@ mpc::Options tracking_options(const sim::Noise& noise) {
 
 sim::Controller tracking_controller(const world::Scenario& scenario, const mpc::Options& options) {
   const auto drivers = std::make_shared<std::vector<Driver>>();
-  for (const world::Robot& robot : scenario.robots) drivers->emplace_back(scenario.model_of(robot), options);
+  for (const world::Robot& robot : scenario.robots)
+    drivers->emplace_back(scenario.model_of(robot), scaled(options, scenario.model_of(robot)));
   return [drivers](std::size_t robot, const sim::CarState& now, const sim::Reference& reference, bool fails) {
     return control((*drivers)[robot], now, reference, fails);
   };

@@ -26,9 +26,17 @@ struct OccupancyGrid {
   Box box() const;
 };
 
+/// What lies beyond the edges of a grid.
+enum class Outside { blocked, free };
+
 /// Rectangles in the world, turned like the grid, that together cover every blocked cell with a free
-/// 8-neighbour. Whoever moves continuously from a free place meets one of them before any other blocked cell.
-/// The outside of the grid is not covered: it is the business of the bounds.
-std::vector<Convex> boundary_rectangles(const OccupancyGrid& grid);
+/// 8-neighbour; where the outside is free, cells at the edge of the grid have one. Whoever moves continuously
+/// from a free place meets one of them before any other blocked cell. The outside of the grid is not covered:
+/// see `surroundings`.
+std::vector<Convex> boundary_rectangles(const OccupancyGrid& grid, Outside outside = Outside::blocked);
+
+/// Convex pieces that together cover what of `within` lies outside the grid: up to four, one beyond each
+/// edge. What sticks out by less than a micrometre is left out.
+std::vector<Convex> surroundings(const OccupancyGrid& grid, const Box& within);
 
 }  // namespace seine::geom

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "seine/base/error.hpp"
+#include "seine/geom/box.hpp"
 
 namespace seine::geom {
 namespace {
@@ -59,6 +60,58 @@ bool edges_clash(std::span<const Vec2> p, std::size_t i, std::size_t j) {
   return cross(in, out) == 0.0 && dot(in, out) < 0.0;
 }
 
+// The edges of a ring in a binary tree of boxes: node 0 holds all, the children of node k are 2k + 1 and
+// 2k + 2, and a node holds the edges [begin, end).
+class EdgeTree {
+ public:
+  explicit EdgeTree(std::span<const Vec2> ring) : ring_(ring) { build(0, 0, ring.size()); }
+
+  // The first edge after i that clashes with it; the number of edges when there is none.
+  std::size_t first_clash(std::size_t i) const { return search(0, 0, ring_.size(), i, box_of(i)); }
+
+ private:
+  static constexpr std::size_t kLeaf = 4;  // edges
+  Box box_of(std::size_t edge) const {
+    Box box;
+    box.include(ring_[edge]);
+    box.include(ring_[(edge + 1) % ring_.size()]);
+    return box;
+  }
+  Box build(std::size_t node, std::size_t begin, std::size_t end) {
+    if (node >= boxes_.size()) boxes_.resize(node + 1);
+    Box box;
+    if (end - begin <= kLeaf) {
+      for (std::size_t edge = begin; edge < end; ++edge) {
+        box.include(box_of(edge).low);
+        box.include(box_of(edge).high);
+      }
+    } else {
+      const std::size_t middle = begin + (end - begin) / 2;
+      for (const Box& half : {build(2 * node + 1, begin, middle), build(2 * node + 2, middle, end)}) {
+        box.include(half.low);
+        box.include(half.high);
+      }
+    }
+    return boxes_[node] = box;
+  }
+  std::size_t search(std::size_t node, std::size_t begin, std::size_t end, std::size_t i,
+                     const Box& near) const {
+    const std::size_t none = ring_.size();
+    if (end <= i + 1 || !boxes_[node].overlaps(near)) return none;
+    if (end - begin <= kLeaf) {
+      for (std::size_t j = std::max(begin, i + 1); j < end; ++j)
+        if (edges_clash(ring_, i, j)) return j;
+      return none;
+    }
+    const std::size_t middle = begin + (end - begin) / 2;
+    const std::size_t found = search(2 * node + 1, begin, middle, i, near);
+    return found < none ? found : search(2 * node + 2, middle, end, i, near);
+  }
+
+  std::span<const Vec2> ring_;
+  std::vector<Box> boxes_;
+};
+
 // Closed triangle.
 bool in_triangle(Vec2 a, Vec2 b, Vec2 c, Vec2 p) {
   return side(a, b, p) >= 0 && side(b, c, p) >= 0 && side(c, a, p) >= 0;
@@ -72,8 +125,13 @@ bool is_ear(std::span<const Vec2> p, const Indices& ring, std::size_t at) {
   const Vec2 b = p[ring[at]];
   const Vec2 c = p[ring[after]];
   if (turn(a, b, c) <= 0.0) return false;
+  // Rounding may call a point inside that lies a little beyond the box.
+  const double left = std::min({a.x, b.x, c.x}), right = std::max({a.x, b.x, c.x});
+  const double grown = 1e-9 * (right - left) + 1e-12 * std::max(std::abs(left), std::abs(right));
   for (std::size_t i = 0; i < n; ++i) {
-    if (i != before && i != at && i != after && in_triangle(a, b, c, p[ring[i]])) return false;
+    const Vec2 q = p[ring[i]];
+    if (q.x < left - grown || q.x > right + grown) continue;
+    if (i != before && i != at && i != after && in_triangle(a, b, c, q)) return false;
   }
   return true;
 }
@@ -91,6 +149,22 @@ void drop_straight(std::span<const Vec2> p, Indices& ring, double tolerance) {
       i = i > 0 ? i - 1 : 0;
     } else {
       ++i;
+    }
+  }
+}
+
+// The same, where only ring[at − 1] and ring[at] and what follows from them may be.
+void drop_straight_at(std::span<const Vec2> p, Indices& ring, std::size_t at) {
+  bool dropped = true;
+  while (dropped) {
+    dropped = false;
+    for (const std::size_t offset : {std::size_t{0}, std::size_t{1}}) {
+      const std::size_t n = ring.size(), i = (at + n - 1 + offset) % n;
+      if (n <= 3 || !straight(p[ring[(i + n - 1) % n]], p[ring[i]], p[ring[(i + 1) % n]], 0.0)) continue;
+      ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(i));
+      if (i < at) --at;
+      dropped = true;
+      break;
     }
   }
 }
@@ -114,8 +188,9 @@ std::vector<Indices> clip_ears(std::span<const Vec2> p, Indices ring) {
     at %= n;
     triangles.push_back({ring[(at + n - 1) % n], ring[at], ring[(at + 1) % n]});
     ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(at));
+    // Only the neighbours of what was clipped can have become straight.
+    drop_straight_at(p, ring, at);
     ++at;  // skipping one keeps the triangles from fanning round a single vertex
-    drop_straight(p, ring, 0.0);
   }
   triangles.push_back(std::move(ring));
   return triangles;
@@ -211,10 +286,10 @@ std::string why_not_simple(std::span<const Vec2> polygon) {
       return "vertices " + std::to_string(i + 1) + " and " + std::to_string(j + 1) + " are the same point";
     }
   }
+  const EdgeTree tree(polygon);
   for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t j = i + 1; j < n; ++j) {
-      if (edges_clash(polygon, i, j)) return edge_name(i, n) + " and " + edge_name(j, n) + " cross or touch";
-    }
+    const std::size_t j = tree.first_clash(i);
+    if (j < n) return edge_name(i, n) + " and " + edge_name(j, n) + " cross or touch";
   }
   if (signed_area(polygon) == 0.0) return "the polygon has no area";
   return "";

@@ -149,11 +149,20 @@ Obstacle read_obstacle(const YamlValue& value, std::size_t number, std::size_t& 
   return obstacle;
 }
 
+/// What lies outside the map's picture.
+bool read_outside(const YamlValue& value, const Scenario& scenario) {
+  if (!scenario.map) value.fail("says what lies outside the map, but there is no 'map'");
+  const std::string text = value.text();
+  if (text != "unknown" && text != "free") value.fail("is '" + text + "', expected unknown or free");
+  return text == "free";
+}
+
 void read_world(const YamlValue& value, const std::filesystem::path& folder, Scenario& scenario,
                 Reading* reading) {
-  const YamlMap map = value.map({"bounds", "map", "obstacles"});
+  const YamlMap map = value.map({"bounds", "map", "outside", "obstacles"});
   if (const auto file = map.find("map"); file && !file->is_null())
     scenario.map = load_map(referred_file(*file, folder), reading);
+  if (const auto outside = map.find("outside")) scenario.outside_free = read_outside(*outside, scenario);
   if (const auto bounds = map.find("bounds")) {
     const std::vector<double> b = bounds->numbers(4, kCoordinate);
     scenario.bounds = {{b[0], b[1]}, {b[2], b[3]}};

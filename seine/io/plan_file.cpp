@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -137,6 +138,19 @@ geom::Pose2 read_stand(const Place& place) {
   return {pose[0], pose[1], pose[2]};
 }
 
+world::Fingerprint read_fingerprint(const Place& place) {
+  world::Fingerprint result;
+  for (const world::FingerprintPart& part : world::kFingerprintParts) {
+    const Place value = place.at(part.name);
+    const std::string text = value.text();
+    std::uint64_t& word = result.*part.value;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), word, 16);
+    if (text.size() != 16 || error != std::errc() || end != text.data() + text.size())
+      value.fail("is no fingerprint, expected 16 hexadecimal digits");
+  }
+  return result;
+}
+
 }  // namespace
 
 PlanFile parse_plan(std::string_view text, const std::string& file) {
@@ -147,6 +161,7 @@ PlanFile parse_plan(std::string_view text, const std::string& file) {
   if (version.number(-1e15, 1e15) != 1.0) version.fail("is a format this version cannot read, expected 1");
   PlanFile plan;
   plan.scenario = top.has("scenario") ? top.at("scenario").text() : "";
+  if (top.has("made_for")) plan.made_for = read_fingerprint(top.at("made_for"));
   top.at("robots").each(1, 100'000, [&](const Place& robot) {
     plan.robots.push_back(robot.at("name").text());
     traj::RobotTrajectory& trajectory = plan.plan.robots.emplace_back();
@@ -163,6 +178,11 @@ PlanFile parse_plan(std::string_view text, const std::string& file) {
 PlanFile load_plan(const std::filesystem::path& path, Reading* reading) {
   if (reading != nullptr) reading->add_file(path);
   return parse_plan(read_file(path, kPlanBytes), path.string());
+}
+
+std::optional<std::vector<std::string>> changed_since(const world::Scenario& scenario, const PlanFile& plan) {
+  if (!plan.made_for) return std::nullopt;
+  return world::differences(world::fingerprint(scenario), *plan.made_for);
 }
 
 void expect_same_team(const world::Scenario& scenario, const PlanFile& plan, const std::string& file) {

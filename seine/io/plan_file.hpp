@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "seine/io/reading.hpp"
 #include "seine/planner/planner.hpp"
 #include "seine/traj/trajectory.hpp"
+#include "seine/world/fingerprint.hpp"
 #include "seine/world/scenario.hpp"
 
 namespace seine::io {
@@ -25,8 +27,9 @@ struct PlanSettings {
 /// What a plan file (docs/plan-format.md) says that a reader may rely on: the trajectories. Its certificate
 /// and its sampled states are for people and other programs; whoever must know certifies again.
 struct PlanFile {
-  std::string scenario;             ///< name
-  std::vector<std::string> robots;  ///< names, in the order of plan.robots
+  std::string scenario;                        ///< name
+  std::optional<world::Fingerprint> made_for;  ///< of the scenario; older plans do not say
+  std::vector<std::string> robots;             ///< names, in the order of plan.robots
   traj::TeamTrajectory plan;
 };
 
@@ -40,6 +43,10 @@ PlanFile parse_plan(std::string_view text, const std::string& file);
 
 /// Throws InputError unless the plan is for the scenario's robots: as many, the same names in the same order.
 void expect_same_team(const world::Scenario& scenario, const PlanFile& plan, const std::string& file);
+
+/// In what the scenario differs from the one that the plan was made for ("models", "margins", …); empty when
+/// in nothing. None when the plan does not say what it was made for.
+std::optional<std::vector<std::string>> changed_since(const world::Scenario& scenario, const PlanFile& plan);
 
 /// Writes the file in one go or not at all. Every coefficient reads back as the very same double.
 void save_plan(const world::Scenario& scenario, const planner::PlanResult& result,

@@ -1,5 +1,6 @@
 #include <array>
 #include <cmath>
+#include <cstdio>
 
 #include "seine/io/certificate_json.hpp"
 #include "seine/io/file_bytes.hpp"
@@ -82,6 +83,17 @@ std::string robot_json(const world::Scenario& scenario, std::size_t index,
   return object.lines();
 }
 
+std::string fingerprint_json(const world::Scenario& scenario) {
+  const world::Fingerprint made_for = world::fingerprint(scenario);
+  JsonObject object;
+  for (const world::FingerprintPart& part : world::kFingerprintParts) {
+    char digits[17];
+    std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(made_for.*part.value));
+    object.add(part.name, digits);
+  }
+  return object.line();
+}
+
 std::string settings_json(const world::Scenario& scenario, const PlanSettings& settings) {
   JsonObject object;
   object.add("method", settings.method);
@@ -104,6 +116,7 @@ std::string plan_text(const world::Scenario& scenario, const planner::PlanResult
   JsonObject object;
   object.add("seine_plan", 1);
   object.add("scenario", scenario.name);
+  object.add_raw("made_for", fingerprint_json(scenario));
   object.add_raw("settings", settings_json(scenario, settings));
   object.add_raw("certificate", certificate_json(scenario, result.certificate));
   object.add("makespan_s", result.plan.makespan());

@@ -93,15 +93,23 @@ std::string report_json(const world::Scenario& scenario, const planner::PlanResu
   return object.lines() + "\n";
 }
 
-std::string report_json(const world::Scenario& scenario, const certify::Certificate& certificate) {
+std::string report_json(const world::Scenario& scenario, const certify::Certificate& certificate,
+                        const std::optional<std::vector<std::string>>& changed) {
   JsonObject object;
   object.add("certified", certificate.holds);
-  object.add("verdict", certificate.holds ? "certified" : certificate.undecided() ? "undecided" : "refuted");
+  object.add("verdict", certificate.holds                                      ? "certified"
+                        : certificate.verdict() == certify::Verdict::undecided ? "undecided"
+                                                                               : "refuted");
   object.add("reason", certificate.violations.empty() ? std::string() : certificate.violations.front().text);
   object.add("robots", static_cast<int>(scenario.robots.size()));
   object.add("certify_s", certificate.seconds);
   add_clearances(certificate, object);
   add_catches(certificate, object);
+  std::string parts;
+  for (const std::string& part : changed.value_or(std::vector<std::string>()))
+    parts += (parts.empty() ? "" : ", ") + json_string(part);
+  object.add_raw("made_for_this", !changed ? "null" : changed->empty() ? "true" : "false");
+  object.add_raw("changed_since", "[" + parts + "]");
   object.add_raw("violations", violations_json(scenario, certificate));
   return object.lines() + "\n";
 }

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "seine/certify/certificate.hpp"
 #include "seine/planner/planner.hpp"
@@ -20,8 +22,12 @@ std::string report_json(const world::Scenario& scenario, const planner::PlanResu
 std::string report_json(const world::Scenario& scenario, const planner::PlanResult& result,
                         const sim::SimulationResult& driven);
 
-/// A verdict on a plan made elsewhere: certified, reason, robots, certify_s, clearances, violations.
-std::string report_json(const world::Scenario& scenario, const certify::Certificate& certificate);
+/// A verdict on a plan made elsewhere: certified, reason, robots, certify_s, clearances, violations, and
+/// whether it was made for this scenario.
+/// @param changed in what the scenario differs from the one that the plan was made for, as from
+/// `changed_since`
+std::string report_json(const world::Scenario& scenario, const certify::Certificate& certificate,
+                        const std::optional<std::vector<std::string>>& changed = std::nullopt);
 
 /// {"error": message}: wrong input, nothing done.
 std::string failure_json(const std::string& message);

@@ -163,7 +163,10 @@ std::string scenario_text(const world::Scenario& scenario, const std::string& ma
   std::string out = joined("seine: 1\nname: ", yaml_scalar(scenario.name), "\nworld:\n  bounds: [",
                            number_text(bounds.low.x), ", ", number_text(bounds.low.y), ", ",
                            number_text(bounds.high.x), ", ", number_text(bounds.high.y), "]\n");
-  if (!map_file.empty()) out += joined("  map: ", yaml_scalar(map_file), "\n");
+  if (!map_file.empty()) {
+    out += joined("  map: ", yaml_scalar(map_file), "\n");
+    if (scenario.outside_free) out += "  outside: free\n";
+  }
   if (!scenario.obstacles.empty()) out += "  obstacles:\n";
   for (std::size_t i = 0; i < scenario.obstacles.size(); ++i)
     out += obstacle_text(scenario.obstacles[i], i + 1);

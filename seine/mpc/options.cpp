@@ -16,6 +16,7 @@ std::vector<std::string> Options::validate() const {
   require(dead_time >= 0.0 && dead_time <= 10.0, "dead_time must be from 0 to 10 s");
   require(lag >= 0.0 && lag <= 10.0, "lag must be from 0 to 10 s");
   require(acceleration_change > 0.0 && steering_change > 0.0, "the largest changes must be positive");
+  require(authority > 0.0, "authority must be positive");
   require(reuse >= 0, "reuse must not be negative");
   bool weights_are_fine = true;
   for (const double w : weights.state) weights_are_fine = weights_are_fine && weight(w);

@@ -31,6 +31,8 @@ struct Options {
   double acceleration_change = 1.0;
   /// Δφ_max, largest change of φ in one step, rad; where the model limits the steering rate, that holds too.
   double steering_change = 0.35;
+  /// m/s² per radian: where v²/L is more, steering costs more by the square of how much, as it does more.
+  double authority = 15.7;
   Discretisation discretisation = Discretisation::exact;
   int reuse = 5;  ///< commands taken from the last good plan before the car is stopped
   optim::QpOptions qp{

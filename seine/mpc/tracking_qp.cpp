@@ -42,6 +42,7 @@ TrackingQp::TrackingQp(const vehicle::Model& model, const Options& options)
               std::min(options.steering_change, model.limits.steering_rate * options.step)},
       kept_(options.lag > 0.0 ? std::exp(-options.step / options.lag) : 0.0),
       first_kept_(Actuators::kept_on_average(options.lag, options.period)),
+      prices_(at(options.horizon), 1.0),
       reference_(at(options.horizon)) {
   lay_out();
   price();
@@ -83,7 +84,7 @@ void TrackingQp::lay_out() {
   }
 }
 
-// P is the same for every reference: twice the weights, because of the ½ in ½ xᵀP x.
+// Twice the weights, because of the ½ in ½ xᵀP x; only the price of steering hangs on the reference.
 void TrackingQp::price() {
   const Weights& weights = options_.weights;
   std::vector<optim::Triplet> entries;
@@ -99,6 +100,27 @@ void TrackingQp::price() {
   }
   problem_.P = optim::from_triplets(kVariables * horizon_, kVariables * horizon_, entries);
   problem_.q.resize(at(kVariables * horizon_));
+}
+
+// A wheel that turns a fast car sharply is priced as it turns the car: by the lateral acceleration, not by
+// the angle. With the price of the angle alone a fast car would steer to and fro at the rate its wheel
+// allows.
+double TrackingQp::steering_price(double speed) const {
+  const double authority = speed * speed / model_.wheelbase / options_.authority;
+  return authority > 1.0 ? authority * authority : 1.0;
+}
+
+void TrackingQp::price_steering(std::span<const Sample> reference) {
+  const Weights& weights = options_.weights;
+  for (int k = 0; k < horizon_; ++k) prices_[at(k)] = steering_price(reference[at(k)].state.speed);
+  for (int k = 0; k < horizon_; ++k) {
+    const double own = prices_[at(k)] * weights.change[1];
+    const double next = k + 1 < horizon_ ? prices_[at(k + 1)] * weights.change[1] : 0.0;
+    const std::size_t column = at(kVariables * k + kW + 1);
+    const auto last = at(problem_.P.begin[column + 1] - 1);  // the diagonal; before it the input before
+    problem_.P.value[last] = 2.0 * (prices_[at(k)] * weights.input[1] + weights.effort[1] + own + next);
+    if (k > 0) problem_.P.value[last - 1] = -2.0 * own;
+  }
 }
 
 void TrackingQp::set_model(std::size_t k, const LinearModel& m, const StateVector& drift) {
@@ -126,6 +148,7 @@ void TrackingQp::set(const State& now, const Input& last, std::span<const Sample
       for (std::size_t j = 0; j < 4; ++j) drift[i] += m.A[i][j] * start[j];
     set_model(k, m, drift);
   }
+  price_steering(reference);
   set_bounds(now, last, reference);
 }
 
@@ -147,7 +170,7 @@ void TrackingQp::set_bounds(const State& now, const Input& last, std::span<const
       const double step = wanted[j] - before[j], allowed = k == 0 ? first * change[j] : change[j];
       problem_.lower[row + kChange + j] = -allowed - step;
       problem_.upper[row + kChange + j] = allowed - step;
-      const double price = 2.0 * options_.weights.change[j] * step;
+      const double price = 2.0 * (j == 1 ? prices_[k] : 1.0) * options_.weights.change[j] * step;
       problem_.q[w + j] += price + 2.0 * options_.weights.effort[j] * wanted[j];
       if (k > 0) problem_.q[w + j - kVariables] -= price;
     }

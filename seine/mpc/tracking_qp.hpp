@@ -38,6 +38,8 @@ class TrackingQp {
  private:
   void lay_out();
   void price();
+  double steering_price(double speed) const;
+  void price_steering(std::span<const Sample> reference);
   void set_model(std::size_t k, const LinearModel& m, const StateVector& drift);
   void set_bounds(const State& now, const Input& last, std::span<const Sample> reference);
 
@@ -49,6 +51,7 @@ class TrackingQp {
   optim::QpProblem problem_;
   std::vector<int>
       dynamics_;  // where in A's values: per step 4 × 4 of −A_k (none for k = 0), 4 × 2 of −B_k; −1: no entry
+  std::vector<double> prices_;  // of steering, at each step: a factor on its weights
   std::vector<Input> reference_;
 };
 

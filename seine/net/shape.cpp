@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "seine/geom/polygon.hpp"
 
@@ -21,8 +22,49 @@ double opening(const Net& net, std::span<const Vec2> attachments) {
   return area > 0.0 ? std::sqrt(area / geom::signed_area(net.rest)) : 0.0;
 }
 
+// The largest circle touches three edges (or as good a one does): the best of all that stay inside.
+double inradius(std::span<const Vec2> polygon) {
+  struct Line {
+    Vec2 inward;
+    double offset;  // distance inside = inward · p − offset
+  };
+  std::vector<Line> lines;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vec2 edge = polygon[i + 1 == polygon.size() ? 0 : i + 1] - polygon[i];
+    const Vec2 inward = geom::left_normal(edge) / geom::norm(edge);
+    lines.push_back({inward, geom::dot(inward, polygon[i])});
+  }
+  double best = 0.0;
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    for (std::size_t j = i + 1; j < lines.size(); ++j)
+      for (std::size_t k = j + 1; k < lines.size(); ++k) {
+        // n_i · p − o_i is the same for all three.
+        const Vec2 a = lines[i].inward - lines[k].inward, b = lines[j].inward - lines[k].inward;
+        const double u = lines[i].offset - lines[k].offset, v = lines[j].offset - lines[k].offset;
+        const double determinant = geom::cross(a, b);
+        if (std::abs(determinant) < 1e-12) continue;
+        const Vec2 p{(u * b.y - v * a.y) / determinant, (a.x * v - b.x * u) / determinant};
+        best = std::max(best, margin_inside(polygon, p));
+      }
+  return best;
+}
+
+// With x = d / 2a, a the catenary's parameter: ℓ/d = sinh x / x and the sag is a (cosh x − 1) = ½ ℓ tanh ½ x.
 double sag(double distance, double rest) {
-  return distance < rest ? std::sqrt(0.375 * distance * (rest - distance)) : 0.0;
+  if (distance >= rest) return 0.0;
+  if (!(distance > 1e-12 * rest)) return 0.5 * rest;
+  const double wanted = std::log(rest / distance);
+  // log(sinh x / x) grows like x²/6 first and like x − log 2x later; Newton's steps from above or below
+  // settle within a few rounds.
+  double x = wanted < 1.0 ? std::sqrt(6.0 * wanted) : wanted + std::log(2.0 * wanted + 2.0);
+  for (int round = 0; round < 30; ++round) {
+    const double growth = 1.0 / std::tanh(x) - 1.0 / x;
+    const double off = x + std::log(-std::expm1(-2.0 * x) / (2.0 * x)) - wanted;
+    const double step = growth > 1e-9 ? off / growth : 0.0;
+    x = std::max(x - step, 0.1 * x);
+    if (std::abs(step) < 1e-14 * x) break;
+  }
+  return 0.5 * rest * std::tanh(0.5 * x);
 }
 
 double empty_depth(const Net& net, std::span<const Vec2> attachments) {

@@ -18,11 +18,15 @@ double rest_distance(const Net& net, std::size_t i, std::size_t j);
 /// counter-clockwise.
 double opening(const Net& net, std::span<const geom::Vec2> attachments);
 
-/// How far the empty net hangs below its rim between two attachments `distance` (m) apart whose cloth is
-/// `rest` (m) long: the parabola of that length, √(3/8 d (ℓ − d)) to leading order; 0 when d ≥ ℓ.
+/// Radius of the largest circle inside a convex counter-clockwise polygon, m.
+double inradius(std::span<const geom::Vec2> polygon);
+
+/// How far a strip of cloth `rest` (m) long hangs below two points of one height, `distance` (m) apart: a
+/// catenary; 0 when d ≥ ℓ, ℓ/2 when d = 0.
 double sag(double distance, double rest);
 
-/// The deepest such sag over all pairs, m.
+/// The deepest such sag over all pairs, m: about where an empty net hangs. Not a bound, since the rest of the
+/// cloth holds a strip up and weighs on it; that is `loaded_depth` (hanging.hpp), below which no cloth hangs.
 double empty_depth(const Net& net, std::span<const geom::Vec2> attachments);
 
 /// Distance of `p` to the nearest edge of a convex counter-clockwise polygon, m: positive inside, negative

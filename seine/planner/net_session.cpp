@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <tuple>
 
 #include "seine/net/catch_rules.hpp"
@@ -16,7 +17,9 @@
 namespace seine::planner {
 namespace {
 
-constexpr int kPolishRounds = 6, kGoOnRounds = 3;
+constexpr int kPolishRounds = 6, kGoOnRounds = 3, kInsistingRounds = 16;
+// What missed by less is polished once more, for longer.
+constexpr double kWithinReach = 0.3;
 // A plan that is worse than this, or that no round brings closer by so much, is not going to hold.
 constexpr double kHopeless = 1.0, kProgress = 0.6, kNearly = 0.05;
 // Fewer evaluations than with the defaults, for hardly longer travel (docs/net-planning.md).
@@ -36,7 +39,24 @@ constexpr double kHoldingRaise = 0.1;                           // m²
 constexpr double kNetRaise = 0.01, kCatchRaise = 0.003;         // m, likewise
 constexpr double kOpeningRaise = 0.004, kSidewaysRaise = 0.05;  // of the net at rest; m/s
 constexpr double kCarryShare = 0.995;                           // of the speed, for each car that is too fast
+constexpr double kLeastCarryShare = 0.98;                       // likewise, where the usual did not help
 constexpr double kClearanceRaise = 0.01;                        // car lengths, on top of what was missed
+
+// Of a team that does not face one way, for people; empty for others.
+std::string hint_at_headings(const world::Scenario& scenario) {
+  constexpr double kApart = 0.6;  // rad
+  const double heading = search::formation_frame(scenario).heading;
+  const world::Robot* furthest = nullptr;
+  double most = kApart;
+  for (const world::Robot& robot : scenario.robots) {
+    const double turn = std::abs(geom::wrap_angle(robot.start.heading - heading));
+    if (turn > most) most = turn, furthest = &robot;
+  }
+  if (furthest == nullptr) return "";
+  return "; a team with a net drives as one formation that faces one way, and " + furthest->name +
+         " starts " + std::to_string(std::lround(most * 180.0 / std::numbers::pi)) +
+         " degrees off it: starts that face the same way, to about 30 degrees, would help";
+}
 
 }  // namespace
 
@@ -83,17 +103,40 @@ bool NetSession::stand() {
 
 void NetSession::guess_and_solve() {
   FormationGuesser guesser(scenario_, map_, question_, deadline_);
+  std::vector<FormationGuess> close;  // of attempts that missed by little
   for (int attempt = 0; attempt < FormationGuesser::kAttempts && !deadline_.expired(); ++attempt) {
     if (!guess(guesser, attempt)) continue;
-    const Stopwatch watch;
-    tasks_ = fit_formation(guess_, scenario_, map_, kFit);
-    prepare();
-    result_.times.corridor += watch.seconds();
-    solve(true);
-    polish(kPolishRounds);
-    if (result_.certified || drive_slower()) return;
+    if (solve_guess(kPolishRounds)) return;
+    if (severity(result_.certificate) < kWithinReach) close.push_back(guess_);
     ++result_.repairs;
   }
+  insisting_ = true;
+  for (FormationGuess& again : close) {
+    if (deadline_.expired()) break;
+    guess_ = std::move(again);
+    if (solve_guess(kInsistingRounds)) return;
+    ++result_.repairs;
+  }
+}
+
+bool NetSession::solve_guess(int rounds) {
+  const Stopwatch watch;
+  tasks_ = fit_formation(guess_, scenario_, map_, kFit);
+  prepare();
+  result_.times.corridor += watch.seconds();
+  solve(true);
+  polish(rounds);
+  if (result_.certified || drive_slower()) return true;
+  keep_nearest();
+  return false;
+}
+
+// Of what does not hold the nearest is told, by what it lacks most.
+void NetSession::keep_nearest() {
+  const certify::Violation* fault = worst(result_.certificate);
+  if (fault == nullptr || severity(result_.certificate) >= nearest_) return;
+  nearest_ = severity(result_.certificate);
+  fault_ = fault->text;
 }
 
 // What is over its limits only may hold when everybody drives slower: not where a catch waits for nobody, and
@@ -144,8 +187,8 @@ void NetSession::prepare() {
     if (options_.without.relaxation && !task.goal)
       task.goal = geom::Pose2{last.points.back().x, last.points.back().y, last.end_heading};
     task.fixed_cusps = options_.without.cusps;
-    // What brakes a car after a catch is limited; the whole plan keeps to it.
-    if (!scenario_.targets.empty())
+    // What brakes a car with something in the net is limited; the whole plan keeps to it.
+    if (!scenario_.targets.empty() || scenario_.payload)
       task.model.limits.acceleration = std::min(task.model.limits.acceleration, net::kBraking);
   }
   settings_ = {};
@@ -203,7 +246,8 @@ void NetSession::polish(int rounds) {
   for (int round = 0; round < rounds; ++round) {
     if (certify() || deadline_.expired()) return;
     const double now = severity(result_.certificate);
-    if (now > kHopeless || (round > 1 && now > kNearly && now > kProgress * before)) return;
+    const bool sticks = round > 1 && now > kNearly && now > kProgress * before;
+    if (now > kHopeless || (sticks && !insisting_)) return;
     before = now;
     report("repair", static_cast<double>(round) / rounds);
     raise_demands();
@@ -264,7 +308,9 @@ void NetSession::raise_demands() {
           c.held_opening += std::clamp(v.limit - v.value, 0.0, 0.03) + kOpeningRaise;
         break;
       case certify::Kind::carrying:
-        for (trajopt::CarryTask& carry : net_.carries) carry.speed *= kCarryShare;
+        for (trajopt::CarryTask& carry : net_.carries)
+          carry.speed *=
+              insisting_ ? std::clamp(v.limit / v.value, kLeastCarryShare, kCarryShare) : kCarryShare;
         break;
       case certify::Kind::target_catch:
         raise_catch(static_cast<std::size_t>(v.other));
@@ -315,8 +361,8 @@ PlanResult NetSession::finish() {
     result_.quality = measure(result_.plan);
   } else if (deadline_.expired()) {
     result_.reason = "no certified plan before the deadline";
-  } else if (!result_.certificate.violations.empty()) {
-    result_.reason = result_.certificate.violations.front().text;
+  } else if (!fault_.empty()) {
+    result_.reason = "no attempt holds; the nearest fails because " + fault_ + hint_at_headings(scenario_);
   }
   result_.times.compute = watch_.seconds();
   return std::move(result_);

@@ -26,6 +26,8 @@ class NetSession {
   bool go_on();
   bool drive_slower();
   void guess_and_solve();
+  bool solve_guess(int rounds);
+  void keep_nearest();
   bool guess(FormationGuesser& guesser, int attempt);
   void prepare();
   void solve(bool soft);
@@ -56,6 +58,9 @@ class NetSession {
   std::vector<double> x_;
   std::optional<std::pair<traj::TeamTrajectory, certify::Certificate>> stay_;  // certified, without reserve
   PlanResult result_;
+  bool insisting_ = false;                                    // attempts that missed by little once more
+  double nearest_ = std::numeric_limits<double>::infinity();  // severity of the plan that came nearest …
+  std::string fault_;                                         // … and what the certificate said of it
 };
 
 }  // namespace seine::planner

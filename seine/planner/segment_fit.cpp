@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "seine/traj/minco.hpp"
 #include "seine/trajopt/kernels.hpp"
@@ -163,6 +164,13 @@ TimedPath without_tiny_stretches(const TimedPath& guess, double shortest) {
   return cut_length == 0.0 || result.profile.size() < 2 ? guess : result;
 }
 
+// m: what deserves a piece of the curve.
+double piece_of(const vehicle::Model& model, const FitOptions& options) {
+  const double speed = model.limits.speed;
+  return std::max(options.piece_length * model.length(),
+                  options.piece_stopping * speed * speed / model.limits.acceleration);
+}
+
 trajopt::SegmentGuess fit_stretch(const TimedPath& guess, const Stretch& stretch, const vehicle::Model& model,
                                   const FitOptions& options, double wait) {
   trajopt::SegmentGuess segment;
@@ -179,8 +187,7 @@ trajopt::SegmentGuess fit_stretch(const TimedPath& guess, const Stretch& stretch
   const auto pieces_for = [](double ratio, int least) {
     return std::clamp(static_cast<int>(std::lround(ratio)), least, traj::UniformMinco::kMaxPieces);
   };
-  const double piece =
-      std::max(options.piece_length * model.length(), options.piece_stopping * model.limits.speed * t_a);
+  const double piece = piece_of(model, options);
   const int pieces = pieces_for(options.finer * (length / piece + turning.heading / options.piece_turn), 3);
   const int times = pieces_for(options.finer * segment.duration / (options.piece_duration * t_a), 4);
   for (int j = 0; j <= pieces; ++j)
@@ -201,6 +208,15 @@ trajopt::SegmentGuess fit_stretch(const TimedPath& guess, const Stretch& stretch
 }
 
 }  // namespace
+
+bool too_long_to_fit(const TimedPath& guess, const vehicle::Model& model) {
+  constexpr double kTwice = 2.0;  // as long as that, wider pieces still do
+  const FitOptions options;
+  double longest = 0.0;
+  for (const Stretch& stretch : stretches_of(guess, model, std::numeric_limits<double>::infinity()))
+    longest = std::max(longest, stretch.to - stretch.from);
+  return longest > kTwice * traj::UniformMinco::kMaxPieces * piece_of(model, options);
+}
 
 void set_corridor(trajopt::RobotTask& task, std::span<const geom::Pose2> poses,
                   const world::Scenario& scenario, const world::StaticMap& map, const FitOptions& options) {

@@ -31,6 +31,10 @@ trajopt::RobotTask fit(const search::TimedPath& timed, const world::Scenario& sc
                        const world::Robot& robot, const world::StaticMap& map,
                        const FitOptions& options = {});
 
+/// Whether the way is far too long for the pieces that a spline has (traj::UniformMinco::kMaxPieces): many
+/// times a hundred metres in one gear.
+bool too_long_to_fit(const search::TimedPath& guess, const vehicle::Model& model);
+
 /// Rebuilds the corridor around a sequence of poses (curve samples, see RobotTask::corridor).
 void set_corridor(trajopt::RobotTask& task, std::span<const geom::Pose2> poses,
                   const world::Scenario& scenario, const world::StaticMap& map, const FitOptions& options);

@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "seine/certify/certificate.hpp"
+#include "seine/planner/arc_plan.hpp"
 #include "seine/planner/faults.hpp"
 #include "seine/planner/groups.hpp"
 #include "seine/planner/moving_bodies.hpp"
@@ -17,11 +18,12 @@ namespace {
 constexpr double kGuessShare = 0.7;  // of the time that is left
 // A team that so many guesses could not solve is given up: without a deadline, and with one.
 constexpr int kFailedGuesses = 2, kMostFailedGuesses = 40;
-constexpr int kPolishRounds = 8;
+constexpr int kPolishRounds = 8, kBriefRounds = 4;
 constexpr int kStuckRounds = 3, kHopelessRounds = 6;
 constexpr double kHardlySlower = 1.03;  // a plan slowed by so little is not worth another attempt …
 constexpr int kBetterAttempts = 2;      // … others are worth so many
 constexpr double kTick = 0.0667;        // of the time a car takes to drive its own length
+constexpr double kMostTicks = 40e3;     // of a plan; one that takes longer is looked at less often
 constexpr double kCloseGap = 0.25;      // car lengths: cars that come this close are optimised jointly
 constexpr double kPenaltyRaise = 3.0, kMostPenalty = 100.0;
 constexpr double kTightenRaise = 0.005, kMostTighten = 0.03;
@@ -32,6 +34,18 @@ constexpr int kLargeGroup = 6;            // a group this large is worth all thr
 bool searches_differ(const world::Scenario& scenario) {
   return scenario.robots.size() > 1 ||
          std::ranges::any_of(scenario.obstacles, [](const auto& o) { return !o.motion.empty(); });
+}
+
+// What no spline of ours can follow is driven arc by arc, with a stop between them: among hundreds of metres
+// that is little.
+std::optional<traj::RobotTrajectory> long_drive(const search::TimedPath& guess, const vehicle::Model& model,
+                                                double start_speed) {
+  if (start_speed != 0.0 || !too_long_to_fit(guess, model)) return std::nullopt;
+  traj::RobotTrajectory drive = drive_arcs(guess.path, model, 0.0);
+  if (drive.segments.empty()) return std::nullopt;
+  for (const search::ProfileKnot& knot : guess.profile)
+    if (knot.s <= 0.0) drive.segments.front().wait = knot.t;
+  return drive;
 }
 
 }  // namespace
@@ -69,10 +83,16 @@ void Session::climb() {
     }
     if (deadline_.expired()) break;
     ++attempts_;
+    const bool brief = attempts_ == 1 && wriggles();
+    if (brief) stop_and_steer();
     prepare(now);
     optimise(now.gently);
     if (deadline_.expired()) break;
-    polish();
+    if (brief && slowed_) {
+      polish_briefly();
+      break;
+    }
+    polish(kPolishRounds);
     if (result_.certified) break;
     slow_down();
     if (now.gently) stop_and_steer();
@@ -150,6 +170,7 @@ void Session::prepare(const Attempt& now) {
     const auto i = static_cast<std::size_t>(k);
     const world::Robot& robot = scenario_.robots[i];
     given_[i] = straight_hop(guess_.robots[i], scenario_.model_of(robot), robot.start_speed);
+    if (!given_[i]) given_[i] = long_drive(guess_.robots[i], scenario_.model_of(robot), robot.start_speed);
     if (given_[i])
       tasks_[i].model = scenario_.model_of(robot);
     else
@@ -159,9 +180,9 @@ void Session::prepare(const Attempt& now) {
   });
   settings_ = {};
   units_ = trajopt::units_of(tasks_);
-  tick_ = kTick * units_.time;
   double last = 0.0;
   for (const search::TimedPath& path : guess_.robots) last = std::max(last, path.arrival());
+  tick_ = std::max(kTick * units_.time, last / kMostTicks);
   ticks_ = static_cast<int>(std::ceil(1.2 * last / tick_)) + 80;
   bodies_.clear();
   for (const trajopt::RobotTask& task : tasks_)
@@ -279,6 +300,16 @@ std::vector<Session::Group> Session::movers(std::vector<Group> groups) const {
   return groups;
 }
 
+// For a better plan than one that holds: what is a little over its limits is slowed at once, and the
+// certificate is asked few times.
+void Session::polish_briefly() {
+  if (certify()) return;
+  slow_down();
+  if (slowed_by_ < kHardlySlower) return;
+  polish(kBriefRounds);
+  if (!result_.certified) slow_down();
+}
+
 bool Session::certify() {
   const Stopwatch watch;
   report("certify", 0.0);
@@ -296,11 +327,11 @@ bool Session::certify() {
   return result_.certified;
 }
 
-void Session::polish() {
-  for (int round = 0; round < kPolishRounds; ++round) {
+void Session::polish(int rounds) {
+  for (int round = 0; round < rounds; ++round) {
     if (certify() || deadline_.expired() || result_.certificate.violations.empty()) return;
     const Stopwatch watch;
-    report("repair", static_cast<double>(round) / kPolishRounds);
+    report("repair", static_cast<double>(round) / rounds);
     std::vector<Group> groups = raise_demands(round), stuck;
     if (round > 0) settings_.pair_penalty *= 2.0;
     // A car that more weight does not help sits in a bad valley: it and its group go back to their guess.

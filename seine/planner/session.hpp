@@ -54,7 +54,9 @@ class Session {
   void stop_and_steer();
   void settle();
   std::string reason_to_give_up() const;
-  void polish();
+  void polish(int rounds);
+  void polish_briefly();
+  bool wriggles() const;
   std::vector<Group> raise_demands(int round);
   double& extra(std::size_t robot, std::size_t body) { return extra_[robot * bodies_.size() + body]; }
   void report(const char* stage, double fraction) const;

@@ -48,6 +48,16 @@ void Session::stop_and_steer() {
   slowed_by_ = std::numeric_limits<double>::infinity();
 }
 
+// Whether a car by itself goes forth and back often: then the optimiser has little to better, and much work.
+bool Session::wriggles() const {
+  if (guess_.robots.size() != 1) return false;
+  const search::Path& path = guess_.robots[0].path;
+  int changes = 0;
+  for (std::size_t i = 1; i < path.points.size(); ++i)
+    changes += path.points[i].gear != path.points[i - 1].gear;
+  return changes >= (path.wriggles ? 2 : 3);
+}
+
 // The shorter of what held at once and what held slower.
 void Session::settle() {
   if (!slowed_ || (result_.certified && result_.plan.makespan() <= slowed_->plan.makespan())) return;

@@ -6,52 +6,23 @@
 #include <numbers>
 #include <optional>
 
-#include "seine/geom/box.hpp"
 #include "seine/geom/convex.hpp"
+#include "seine/search/refuge.hpp"
 
 namespace seine::search {
 namespace {
 
-constexpr double kAlong = 0.5;      // car lengths between places looked at along the way
-constexpr double kAside = 0.1;      // car widths between those looked at beside it …
-constexpr double kFurthest = 4.0;   // … and how far away
-constexpr double kOtherStep = 0.2;  // car lengths between the other's footprints
-constexpr double kSlack = 0.01;     // car lengths, on top of both clearances
-constexpr std::size_t kMost = 4;    // places
-
-/// Where the other car drives, as footprints with a slack for what lies between them.
-class Lane {
- public:
-  Lane(const BayQuestion& question)
-      : clearance_(question.robot_clearance + kSlack * question.model->length()) {
-    const double step = kOtherStep * question.other_model->length(), length = question.other->length();
-    for (double s = 0.0;; s += step) {
-      std::vector<geom::Vec2> footprint(question.other_model->footprint.size());
-      geom::place(question.other_model->footprint, pose_at(*question.other, std::min(s, length)), footprint);
-      boxes_.push_back(geom::bounding_box(footprint).inflated(clearance_));
-      footprints_.push_back(std::move(footprint));
-      if (s >= length) break;
-    }
-  }
-  bool keeps_off(const geom::Convex& body) const {
-    const geom::Box box = body.box();
-    for (std::size_t i = 0; i < footprints_.size(); ++i)
-      if (boxes_[i].overlaps(box) && geom::distance(body.core, footprints_[i]) < clearance_) return false;
-    return true;
-  }
-
- private:
-  double clearance_;
-  std::vector<std::vector<geom::Vec2>> footprints_;
-  std::vector<geom::Box> boxes_;
-};
+constexpr double kAlong = 0.5;     // car lengths between places looked at along the way
+constexpr double kAside = 0.1;     // car widths between those looked at beside it …
+constexpr double kFurthest = 4.0;  // … and how far away
+constexpr double kSlack = 0.01;    // car lengths, on top of both clearances
+constexpr std::size_t kMost = 4;   // places
 
 /// The place beside `on` on one side that keeps off everything: half way between the nearest such place and
 /// the furthest, so that there is room on both sides.
 std::optional<geom::Pose2> place_beside(const BayQuestion& question, const Lane& lane, const geom::Pose2& on,
                                         double side) {
   const vehicle::Model& model = *question.model;
-  const geom::Convex body{model.footprint};
   const geom::Vec2 aside = (side * kAside * model.width()) * geom::unit(on.heading + 0.5 * std::numbers::pi);
   const auto beside = [&](int steps) {
     const geom::Vec2 at = on.position() + static_cast<double>(steps) * aside;
@@ -62,7 +33,7 @@ std::optional<geom::Pose2> place_beside(const BayQuestion& question, const Lane&
   for (int i = 1; i * kAside <= kFurthest; ++i) {
     geom::place(model.footprint, beside(i), footprint);
     if (!question.map->clear(footprint, question.obstacle_clearance + kSlack * model.length())) break;
-    if (!lane.keeps_off(geom::placed(body, beside(i)))) continue;
+    if (lane.room(footprint, 0.0) < 0.0) continue;
     if (nearest == 0) nearest = i;
     furthest = i;
   }
@@ -74,7 +45,8 @@ std::optional<geom::Pose2> place_beside(const BayQuestion& question, const Lane&
 }  // namespace
 
 std::vector<geom::Pose2> bays_beside(const BayQuestion& question) {
-  const Lane lane(question);
+  Lane lane;
+  lane.add(*question.other_model, *question.other, question.robot_clearance);
   const double step = kAlong * question.model->length(), length = question.way->length();
   std::vector<std::vector<geom::Pose2>> stretches;  // of neighbouring places on one side
   for (const double side : {1.0, -1.0}) {

@@ -13,6 +13,19 @@ std::size_t idx(int i) {
   return static_cast<std::size_t>(i);
 }
 
+// Where a goal is further off the units of the way are longer.
+constexpr double kMostUnitsAhead = 100e3;
+
+// m, by model: the furthest that a goal lies from its start.
+std::vector<double> furthest_goals(const world::Scenario& scenario) {
+  std::vector<double> furthest(scenario.models.size(), 0.0);
+  for (const world::Robot& robot : scenario.robots) {
+    double& most = furthest[idx(robot.model)];
+    most = std::max(most, geom::norm(robot.goal->position() - robot.start.position()));
+  }
+  return furthest;
+}
+
 // The first tick at which the unhindered drive hits a mark, or −1.
 int first_hit(const VelocityPlan& plan, std::span<const Mark> marks) {
   const int last = static_cast<int>(plan.tested.size()) - 1;
@@ -32,10 +45,14 @@ int first_hit(const VelocityPlan& plan, std::span<const Mark> marks) {
 }  // namespace
 
 Coordinator::Coordinator(const world::Scenario& scenario, const LatticeOptions& lattice,
-                         double extra_clearance)
-    : scenario_(scenario), extra_clearance_(extra_clearance) {
-  for (const vehicle::Model& model : scenario.models) {
-    const SpeedGrid grid = speed_grid(model, lattice);
+                         double extra_clearance, const Deadline& deadline)
+    : scenario_(scenario), extra_clearance_(extra_clearance), deadline_(deadline) {
+  const std::vector<double> furthest = furthest_goals(scenario);
+  for (std::size_t m = 0; m < scenario.models.size(); ++m) {
+    const vehicle::Model& model = scenario.models[m];
+    LatticeOptions fitting = lattice;
+    fitting.least_unit = std::max(lattice.least_unit, furthest[m] / kMostUnitsAhead);
+    const SpeedGrid grid = speed_grid(model, fitting);
     const double tick = grid.half_step();
     std::size_t clock = 0;
     while (clock < clocks_.size() && clocks_[clock] != tick) ++clock;
@@ -72,8 +89,10 @@ std::shared_ptr<Way> Coordinator::make_way(int robot, Path path, bool careful) c
 bool Coordinator::finish_way(Way& way) const {
   VelocityWorkspace workspace;
   workspace.occupied.reset(way.lattice, 1);
-  constexpr int kEndless = 1 << 20;
-  way.unhindered = plan_velocity(way.lattice, workspace, {.ticks = kEndless});
+  // The plan is the same for every horizon that admits one; a near one leaves little to look at.
+  const int least = static_cast<int>(way.reach.size());
+  for (int more = 64; !way.unhindered.found && more <= 4 * least + 1024 && !deadline_.expired(); more *= 4)
+    way.unhindered = plan_velocity(way.lattice, workspace, {.ticks = least + more, .deadline = deadline_});
   way.alone = way.unhindered.arrival;
   return way.unhindered.found;
 }
@@ -178,7 +197,7 @@ VelocityPlan Coordinator::plan_on(int robot, const Way& way, const TeamState& st
   int horizon = ticks + static_cast<int>(alone) + 4 * way.lattice.grid().levels;
   const double tick = way.lattice.grid().half_step();
   if (latest < horizon * tick) horizon = static_cast<int>(latest / tick);
-  return plan_velocity(way.lattice, workspace.velocity, {.ticks = horizon});
+  return plan_velocity(way.lattice, workspace.velocity, {.ticks = horizon, .deadline = deadline_});
 }
 
 std::shared_ptr<const Placement> Coordinator::placement(int robot, const WayPtr& way,

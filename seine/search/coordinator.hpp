@@ -56,7 +56,9 @@ class Coordinator {
  public:
   /// @param extra_clearance m, on top of the scenario's margin between robots where starts and goals leave
   /// that much room
-  Coordinator(const world::Scenario& scenario, const LatticeOptions& lattice, double extra_clearance);
+  /// @param deadline  nothing is placed once it has passed
+  Coordinator(const world::Scenario& scenario, const LatticeOptions& lattice, double extra_clearance,
+              const Deadline& deadline = {});
 
   int robots() const { return static_cast<int>(cars_.size()); }
   /// A path made ready for the robot, except for what it can do alone; null when it cannot be driven.
@@ -142,6 +144,7 @@ class Coordinator {
 
   const world::Scenario& scenario_;
   double extra_clearance_;
+  Deadline deadline_;
   std::vector<Kind> kinds_;
   std::vector<double> clocks_;  // s, the distinct ticks
   std::vector<Car> cars_;

@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::uint32_t kStraight = 12, kDiagonal = 17;
 constexpr std::uint32_t kClosed = 1;
+constexpr unsigned kPerLook = 4096;  // cells, at the clock
 
 std::uint32_t cost_of(std::uint32_t mark) {
   return (mark - 2) >> 1;
@@ -106,10 +107,11 @@ bool CostToGo::expand_one() {
 double CostToGo::operator()(geom::Vec2 p) {
   const int column = distances_->column(p.x), row = distances_->row(p.y);
   if (!distances_->inside(column, row)) return std::numeric_limits<double>::infinity();
-  for (;;) {
+  for (unsigned looked = 1;; ++looked) {
     const std::uint32_t m = mark(column, row);
     if ((m & kClosed) != 0) return cost_of(m) * distances_->cell() / kStraight;
-    if (!expand_one()) return std::numeric_limits<double>::infinity();
+    const bool late = looked % kPerLook == 0 && deadline_.expired();
+    if (late || !expand_one()) return std::numeric_limits<double>::infinity();
   }
 }
 

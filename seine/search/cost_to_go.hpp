@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "seine/base/deadline.hpp"
 #include "seine/geom/vec2.hpp"
 #include "seine/search/point_distances.hpp"
 
@@ -29,6 +30,8 @@ class CostToGo {
 
   /// Looks in the direction of `point` first from now on.
   void focus(geom::Vec2 point);
+  /// Gives up at a deadline from now on: an infinite cost then means nothing.
+  void until(const Deadline& deadline) { deadline_ = deadline; }
   /// m from the middle of p's cell to the goal's; infinity when there is no way.
   double operator()(geom::Vec2 p);
   /// Memory in use, bytes (without the queue, which is a small part of it).
@@ -63,6 +66,7 @@ class CostToGo {
   std::vector<std::vector<Cell>> open_;  // by cost + cost ahead
   std::size_t lowest_ = 0;
   std::size_t bytes_ = 0;
+  Deadline deadline_;
 };
 
 }  // namespace seine::search

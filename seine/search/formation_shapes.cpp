@@ -162,9 +162,7 @@ class Shapes {
     return true;
   }
 
-  double depth_of(std::span<const Vec2> ring) const {
-    return loaded_ ? net::loaded_depth(net_, ring) : net::empty_depth(net_, ring);
-  }
+  double depth_of(std::span<const Vec2> ring) const { return net::loaded_depth(net_, ring); }
 
   // The cars' footprints, all with one heading.
   bool apart(std::span<const Vec2> ring) const {

@@ -5,10 +5,12 @@
 #include <cmath>
 
 #include "seine/geom/convex.hpp"
+#include "seine/geom/polygon.hpp"
 
 namespace seine::search {
 namespace {
 
+constexpr double kFar = 100.0;  // radii of the car: a straight line this long is looked at as a whole
 constexpr std::size_t kMaxCorners = 32;  // footprints with more fall back to the heap
 
 /// Distance from a point inside a counter-clockwise convex polygon to its boundary (negative outside).
@@ -167,7 +169,9 @@ double FootprintChecker::sweep(const geom::Pose2& from, double room_from, const 
   while (count > 0) {
     const Sample next = ahead[count - 1];
     const double gap = next.s - here.s;
-    if (here.room + next.room >= speed * gap || gap <= resolution_ || count == ahead.size()) {
+    const bool far = arc.curvature == 0.0 && gap > kFar * reach_;
+    if (here.room + next.room >= speed * gap || gap <= resolution_ || count == ahead.size() ||
+        (far && straight_clear(vehicle::drive(from, 0.0, sign * here.s), sign * gap))) {
       here = next;
       --count;
       continue;
@@ -179,6 +183,16 @@ double FootprintChecker::sweep(const geom::Pose2& from, double room_from, const 
     ahead[count++] = {s, room_here};
   }
   return room_to;
+}
+
+// Whether all of what a straight drive covers keeps clearance and slack, at one look.
+bool FootprintChecker::straight_clear(const geom::Pose2& from, double distance) const {
+  if (!parked_.empty()) return false;
+  std::vector<geom::Vec2> covered;
+  for (const geom::Pose2& pose : {from, vehicle::drive(from, 0.0, distance)})
+    for (const geom::Vec2 corner : model_->footprint) covered.push_back(pose * corner);
+  const double room = clearance_ + slack_;
+  return map_->distance(geom::convex_hull(std::move(covered)), 1.1 * room + look_) > room;
 }
 
 double FootprintChecker::reach(const geom::Pose2& from, double room_from, const vehicle::Arc& arc) const {

@@ -87,6 +87,7 @@ class FootprintChecker {
     double slack;
   };
   double fastest_corner(double curvature) const;
+  bool straight_clear(const geom::Pose2& from, double distance) const;
   double quick_room(const geom::Pose2& pose) const;
   double near_room(const geom::Pose2& pose, double map_room) const;
   double parked_circles(const geom::Pose2& pose, double cap) const;

@@ -6,7 +6,7 @@
 
 namespace seine::search {
 
-void append(Path& path, const Path& next) {
+void append(Path& path, const Path& next, bool rest) {
   const double length = path.length();
   if (path.points.empty() || next.points.empty()) return;
   const bool same_gear = next.points.front().gear == path.points.back().gear;
@@ -15,6 +15,8 @@ void append(Path& path, const Path& next) {
     path.points.push_back(point);
     path.points.back().s += length;
   }
+  if (rest) path.rests.push_back(length);
+  for (const double at : next.rests) path.rests.push_back(at + length);
 }
 
 geom::Pose2 pose_at(const Path& path, double s) {

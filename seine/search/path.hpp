@@ -20,6 +20,9 @@ struct PathPoint {
 /// the same s and pose and different gear.
 struct Path {
   std::vector<PathPoint> points;
+  std::vector<double> rests;  ///< m, ascending: driven lengths, each that of a point, at which the car stops
+  /// Whether it is the quickest of many ways out of a tight place or into one: no other search need be tried.
+  bool wriggles = false;
   double length() const { return points.empty() ? 0.0 : points.back().s; }
 };
 
@@ -43,7 +46,8 @@ struct TimedPath {
 };
 
 /// Drives on along `next`, which begins where `path` ends.
-void append(Path& path, const Path& next);
+/// @param rest  whether the car stops there, whatever its gears
+void append(Path& path, const Path& next, bool rest = false);
 
 /// Pose on the path at driven length s (clamped), interpolated between samples.
 geom::Pose2 pose_at(const Path& path, double s);

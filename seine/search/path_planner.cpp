@@ -9,16 +9,18 @@
 
 #include "seine/geom/convex.hpp"
 #include "seine/search/cost_to_go_cache.hpp"
+#include "seine/search/drive_time.hpp"
 #include "seine/search/gates.hpp"
 #include "seine/search/hybrid_astar.hpp"
 #include "seine/search/quickest.hpp"
+#include "seine/search/rungs.hpp"
 #include "seine/search/short_move.hpp"
+#include "seine/search/slot.hpp"
 
 namespace seine::search {
 namespace {
 
 // All lengths scale with the car. Measured reasons: docs/front-end-paths.md.
-constexpr double kSlack = 0.025;       // car lengths, on top of the clearance while searching
 constexpr double kLeastSlack = 0.1;    // of the slack: rungs with no more get along with what the ends have
 constexpr double kEaseRadius = 1.5;    // car lengths around a tight start or goal in which it has less slack
 constexpr double kShortStretch = 0.3;  // car lengths: stretches in one gear below this are avoided
@@ -34,7 +36,14 @@ constexpr double kTightSlot = 0.1;    // car lengths of room: an end with more i
 constexpr double kComfort = 0.3;      // car widths on either side that a wary way likes to have
 constexpr double kBlockedStep = 1.2;  // car lengths: moves that go on until they are blocked are no shorter
 constexpr int kDiscomfort = 10;       // times the cost where it has not
-constexpr double kReverse = 1.5;      // what a metre backwards costs at least
+// One try at wriggling: of the smallest radius; of the full slack; of the time of the tries before, to be
+// preferred to them (1: only tried where they found nothing).
+struct Wriggle {
+  double radius, slack, quicker;
+};
+constexpr Wriggle kWriggles[] = {{1.1, 0.4, 1.0}, {1.03, 0.4, 0.95}, {1.03, 0.1, 1.0}, {1.0, 0.02, 1.0}};
+constexpr int kWriggleShare = 20;         // of the expansions, for each
+constexpr double kReverse = 1.5;          // what a metre backwards costs at least
 constexpr double kSteeringChange = 0.05;  // turning radii, from straight to the tightest turn
 
 /// What a metre backwards costs: at least the usual, at most the time it takes, forwards being 1; infinite
@@ -43,99 +52,6 @@ double reverse_cost(const vehicle::Limits& limits, double share) {
   if (!(limits.reverse_speed > 0.0)) return std::numeric_limits<double>::infinity();
   return kReverse + share * std::max(0.0, limits.speed / limits.reverse_speed - kReverse);
 }
-
-/// What the heuristic of a rung says about gaps.
-enum class Gaps {
-  quick,  // on the coarse grid: a gap too narrow by a fifth of a car's width may look open
-  wary,   // on the fine grid; gaps only just wide enough for the car are dear, which pays when they turn out
-          // to be too narrow
-  exact,  // on the fine grid
-};
-
-/// One rung of the ladder of searches, from coarse and quick to fine and patient. The defaults are for open
-/// ground: a dozen expansions where the straight shot is blocked.
-struct Rung {
-  double radius = 1.1;                // of the smallest turning radius
-  double step = 0.8, min_step = 0.8;  // turning radii
-  bool until_blocked = false;         // moves end where they are blocked
-  double cell = 0.45;                 // turning radii
-  int headings = 24;
-  bool gears_apart = false;
-  int forward = 5, backward = 3;
-  double slack = 1.0;         // of the full slack
-  double gear_change = 2.0;   // turning radii
-  double slow_reverse = 0.0;  // of what a slow reverse gear costs more in time than usual
-  double share = 0.02;        // of the expansions allowed
-  Gaps gaps = Gaps::quick;
-  bool for_slots = false;
-  bool from_tighter_end = false;  // the way out of a tight place is easier to find than the way in
-  // Where this rung finds nothing, ways through the middle of narrow places are tried that leave at most so
-  // much room, car lengths.
-  double gates_after = 0.0;
-  // … and single words without slack, wide ones too: along walls that are touched.
-  bool words_after = false;
-};
-constexpr Rung parking(double share, double gates_after = 0.0) {
-  return {.radius = 1.02,
-          .step = 0.4,
-          .min_step = 0.4,
-          .cell = 0.2,
-          .headings = 36,
-          .backward = 5,
-          .slack = 0.2,
-          .gear_change = 0.5,
-          .share = share,
-          .gaps = Gaps::exact,
-          .from_tighter_end = true,
-          .gates_after = gates_after};
-}
-constexpr Rung kLadder[] = {
-    {},
-    // Buildings where the shortest way turns out to be too narrow.
-    {.share = 0.03, .gaps = Gaps::wary, .gates_after = 0.2 * kSlack, .words_after = true},
-    // Parking, narrow doors.
-    parking(0.05, 1.0),
-    // Slots between two cars: forth and back as far as it goes.
-    {.radius = 1.03,
-     .step = 2.0,
-     .min_step = 0.01,
-     .until_blocked = true,
-     .cell = 0.04,
-     .headings = 120,
-     .gears_apart = true,
-     .forward = 3,
-     .slack = 0.1,
-     .gear_change = 0.2,
-     .share = 0.1,
-     .gaps = Gaps::exact,
-     .for_slots = true,
-     .from_tighter_end = true},
-    // The third for longer.
-    parking(0.3),
-    // Slots that take a dozen moves of a few centimetres.
-    {.radius = 1.0,
-     .step = 0.2,
-     .min_step = 0.002,
-     .cell = 0.006,
-     .headings = 500,
-     .gears_apart = true,
-     .forward = 3,
-     .slack = 0.02,
-     .gear_change = 0.05,
-     .share = 0.6,
-     .gaps = Gaps::exact,
-     .for_slots = true,
-     .from_tighter_end = true},
-    // The second once more, for as long as it takes.
-    {.share = 1.0, .gaps = Gaps::wary},
-};
-
-/// Rungs on open ground for other tastes: little in a slow reverse gear, few gear changes, wide turns.
-constexpr Rung kHurried[] = {
-    {.slow_reverse = 1.0},
-    {.gear_change = 8.0},
-    {.radius = 2.0, .step = 0.6, .min_step = 0.6, .cell = 0.3, .gear_change = 2.0},
-};
 
 }  // namespace
 
@@ -162,6 +78,8 @@ struct PathPlanner::Impl {
   std::optional<Route> ladder(const geom::Pose2& start, const geom::Pose2& goal, const PathOptions& options,
                               int& left, bool gates);
   FootprintChecker slackened(const FootprintChecker& free, const Ends& ends, double share) const;
+  std::optional<Route> wriggle(const FootprintChecker& free, const Ends& ends, const PathOptions& options,
+                               int& left) const;
   void hurry(Route& route, const FootprintChecker& checker, const PathOptions& options);
   LatticeResult climb(const Rung& rung, const FootprintChecker& checker, const Route& ends, bool backwards,
                       const PathOptions& options, int expansions);
@@ -225,6 +143,7 @@ LatticeResult PathPlanner::Impl::climb(const Rung& rung, const FootprintChecker&
                                        bool backwards, const PathOptions& options, int expansions) {
   const double radius = rung.radius / model.max_curvature();
   const CostToGoCache::Loan to_go(cache, way(rung.gaps, options.clearance), ends.goal * reference);
+  to_go.get()->until(options.deadline);
   LatticeProblem problem;
   problem.start = ends.start;
   problem.goal = ends.goal;
@@ -262,7 +181,7 @@ LatticeResult PathPlanner::Impl::climb(const Rung& rung, const FootprintChecker&
 FootprintChecker PathPlanner::Impl::slackened(const FootprintChecker& free, const Ends& ends,
                                               double share) const {
   FootprintChecker checker = free;
-  double slack = share * kSlack * length;
+  double slack = share * kSearchSlack * length;
   if (share <= kLeastSlack && ends.touch())
     slack = std::min(slack, 0.5 * std::min(ends.room_start, ends.room_goal));
   checker.set_slack(slack);
@@ -293,6 +212,7 @@ std::optional<Route> PathPlanner::Impl::through_gates(const Ends& ends, double m
   std::vector<Gate> gates;
   {
     const CostToGoCache::Loan to_go(cache, disc, ends.goal * reference);
+    to_go.get()->until(options.deadline);
     gates =
         gates_between(map, model, *to_go.get(), disc, reference, ends.start, ends.goal, options.clearance);
   }
@@ -335,10 +255,14 @@ std::optional<Route> PathPlanner::Impl::ladder(const geom::Pose2& start, const g
   if (std::min(ends.room_start, ends.room_goal) < 0.0) return std::nullopt;
 
   // Whether there may be an end that can only be left or reached by moves shorter than a step.
-  bool slot = std::min(ends.room_start, ends.room_goal) < kTightSlot * length;
+  bool slot = std::min(ends.room_start, ends.room_goal) < kTightSlot * length, wriggled = !slot;
   for (const Rung& rung : kLadder) {
     if (left <= 0 || options.deadline.expired()) break;
     if (rung.for_slots && !slot) continue;
+    if (!wriggled && (rung.for_slots || (options.quickest && &rung != kLadder))) {
+      wriggled = true;
+      if (std::optional<Route> route = wriggle(free, ends, options, left)) return route;
+    }
     const FootprintChecker checker = slackened(free, ends, rung.slack);
     // The way out of a tight place is easier to find than the way in: search from there.
     const bool backwards = rung.from_tighter_end && ends.room_goal < ends.room_start;
@@ -364,6 +288,33 @@ std::optional<Route> PathPlanner::Impl::ladder(const geom::Pose2& start, const g
         return route;
   }
   return std::nullopt;
+}
+
+/// Out of a tight end or into it forth and back, with less and less slack; tighter turns where they save
+/// much.
+std::optional<Route> PathPlanner::Impl::wriggle(const FootprintChecker& free, const Ends& ends,
+                                                const PathOptions& options, int& left) const {
+  const bool leaving = ends.room_start <= ends.room_goal;
+  std::optional<Route> best;
+  for (const auto [radius, slack, quicker] : kWriggles) {
+    if (best && !(quicker < 1.0)) break;
+    const FootprintChecker checker = slackened(free, ends, slack);
+    const SlotProblem problem{.inside = leaving ? ends.start : ends.goal,
+                              .outside = leaving ? ends.goal : ends.start,
+                              .leaving = leaving,
+                              .checker = &checker,
+                              .radius = radius / model.max_curvature(),
+                              .bumps = options.bumps,
+                              .max_expansions = std::min(left, options.max_expansions / kWriggleShare),
+                              .deadline = options.deadline};
+    SlotResult result = search_slot(problem);
+    left -= result.expansions;
+    if (!result.route) continue;
+    if (best && !(drive_time(result.route->arcs, model) < quicker * drive_time(best->arcs, model))) continue;
+    best = std::move(result.route);
+    best->wriggles = true;
+  }
+  return best;
 }
 
 std::optional<Route> PathPlanner::Impl::plan(const geom::Pose2& start, const geom::Pose2& goal,
@@ -394,7 +345,9 @@ std::optional<Path> PathPlanner::plan(const geom::Pose2& start, const geom::Pose
                                       const PathOptions& options) const {
   const std::optional<Route> route = impl_->plan(start, goal, options);
   if (!route) return std::nullopt;
-  return sampled(*route, kPathSpacing * impl_->length);
+  Path path = sampled(*route, kPathSpacing * impl_->length);
+  path.wriggles = route->wriggles;
+  return path;
 }
 
 }  // namespace seine::search

@@ -2,12 +2,17 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <limits>
+#include <new>
 
 namespace seine::search {
 namespace {
 
 constexpr double kMaxCells = 16e6;
+// Values are kept with all bits turned: 0 would be a NaN, which no distance is, and memory that is all zeros
+// costs nothing until it is written to.
+constexpr std::uint32_t kUnknown = 0;
 constexpr double kRounding = 1e-6;  // m, more than a float loses on distances of metres
 
 }  // namespace
@@ -20,10 +25,8 @@ PointDistances::PointDistances(const world::StaticMap& map, double cell, double 
   columns_ = std::max(1, static_cast<int>(std::ceil(size.x * inverse_)));
   rows_ = std::max(1, static_cast<int>(std::ceil(size.y * inverse_)));
   const std::size_t count = static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_);
-  value_ = std::make_unique<std::atomic<float>[]>(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    value_[i].store(std::numeric_limits<float>::quiet_NaN(), std::memory_order_relaxed);
-  }
+  value_.reset(static_cast<std::atomic<std::uint32_t>*>(std::calloc(count, sizeof(value_[0]))));
+  if (!value_) throw std::bad_alloc();
 }
 
 float PointDistances::compute(int column, int row) const {
@@ -34,11 +37,10 @@ float PointDistances::compute(int column, int row) const {
 double PointDistances::at(int column, int row) const {
   auto& value = value_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
                        static_cast<std::size_t>(column)];
-  float distance = value.load(std::memory_order_relaxed);
-  if (std::isnan(distance)) {
-    distance = compute(column, row);
-    value.store(distance, std::memory_order_relaxed);
-  }
+  const std::uint32_t known = value.load(std::memory_order_relaxed);
+  if (known != kUnknown) return static_cast<double>(std::bit_cast<float>(~known));
+  const float distance = compute(column, row);
+  value.store(~std::bit_cast<std::uint32_t>(distance), std::memory_order_relaxed);
   return static_cast<double>(distance);
 }
 

@@ -3,6 +3,8 @@
 #include <atomic>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <cstdlib>
 #include <memory>
 
 #include "seine/geom/box.hpp"
@@ -51,8 +53,11 @@ class PointDistances {
   geom::Vec2 low_;
   double cell_, inverse_, cap_;
   int columns_, rows_;
-  std::unique_ptr<std::atomic<float>[]>
-      value_;  // NaN: not computed yet; else rounded towards −∞ by less than a micrometre
+  struct Free {
+    void operator()(std::atomic<std::uint32_t>* memory) const { std::free(memory); }
+  };
+  // The bits of a float, all turned; rounded towards −∞ by less than a micrometre. 0: not computed yet.
+  std::unique_ptr<std::atomic<std::uint32_t>[], Free> value_;
 };
 
 }  // namespace seine::search

@@ -148,6 +148,16 @@ std::string sentence(const Refusal& refusal, const world::Scenario& scenario, in
          by(refusal) + hint;
 }
 
+std::string cannot_pass_sentence(const world::Scenario& scenario, int a, int b) {
+  const world::Robot &first = scenario.robots[static_cast<std::size_t>(a)],
+                     &second = scenario.robots[static_cast<std::size_t>(b)];
+  return first.name + " and " + second.name +
+         " cannot both reach their goals (proved): on their ways there is no place where one could pass the "
+         "other or "
+         "make way for it; a wider place, a bay, other goals "
+         "or smaller margins would help";
+}
+
 std::string narrowest_for_net(const world::Scenario& scenario, const world::StaticMap& map) {
   if (!scenario.net || scenario.robots.empty()) return "";
   for (const world::Obstacle& obstacle : scenario.obstacles)

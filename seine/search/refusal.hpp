@@ -44,6 +44,9 @@ struct Verdict {
 Verdict why_no_ways(const world::Scenario& scenario, const world::StaticMap& map, std::span<const int> robots,
                     bool late);
 
+/// For two cars of which cannot_both_arrive is proved.
+std::string cannot_pass_sentence(const world::Scenario& scenario, int a, int b);
+
 /// One sentence for people: what fails, where (in the user's coordinates), and what they could change.
 std::string sentence(const Refusal& refusal, const world::Scenario& scenario, int robot);
 

@@ -11,8 +11,6 @@ namespace {
 // How long the first car waits at its start, in times it needs alone.
 constexpr double kDelays[] = {0.0, 0.5, 1.0, 2.0};
 constexpr int kMostOrders = 6;
-// Patience of the first round, which makes do with the ways at hand.
-constexpr int kNoSearch = -1;
 
 std::size_t idx(int i) {
   return static_cast<std::size_t>(i);
@@ -20,23 +18,34 @@ std::size_t idx(int i) {
 
 }  // namespace
 
-bool Rescue::run(std::span<const int> group, TeamState& state, const Deadline& deadline) {
+bool Rescue::run(std::span<const int> group, TeamState& state, const Deadline& deadline, Rounds rounds) {
   std::vector<int> order(group.begin(), group.end());
   std::sort(order.begin(), order.end());
-  double alone = 0.0;
-  for (const int robot : order)
-    if (!coordinator_.ways(robot).empty()) alone = std::max(alone, coordinator_.alone(robot));
   TeamState without = state;
   for (const int robot : order) without[idx(robot)] = nullptr;
-  for (int patience = kNoSearch; patience <= SpaceTimePlanner::kMostPatience; ++patience)
-    for (const double delay : kDelays) {
-      if (delay > 0.0 && order.size() < 2) break;
-      TeamState best = best_of_orders(order, delay * alone, patience, without, deadline);
+  for (int patience = rounds.first; patience <= rounds.last; ++patience)
+    for (const double delay : delays(order, patience)) {
+      TeamState best = best_of_orders(order, delay, patience, without, deadline);
       if (best.empty()) continue;
       state = std::move(best);
       return true;
     }
   return false;
+}
+
+// s. While ways by bays and refuges are tried, the others may need as long as the longest of them takes.
+std::vector<double> Rescue::delays(const std::vector<int>& order, int patience) const {
+  if (order.size() < 2) return {0.0};
+  double alone = 0.0, longest = 0.0;
+  for (const int robot : order) {
+    if (coordinator_.ways(robot).empty()) continue;
+    alone = std::max(alone, coordinator_.alone(robot));
+    for (const WayPtr& way : coordinator_.ways(robot)) longest = std::max(longest, way->alone);
+  }
+  std::vector<double> delays;
+  for (const double share : kDelays) delays.push_back(share * alone);
+  if (patience == kNoSearch && longest > delays.back()) delays.push_back(longest);
+  return delays;
 }
 
 TeamState Rescue::best_of_orders(std::vector<int> order, double delay, int patience, const TeamState& without,

@@ -7,6 +7,7 @@
 
 #include "seine/base/deadline.hpp"
 #include "seine/search/coordinator.hpp"
+#include "seine/search/space_time_planner.hpp"
 
 namespace seine::search {
 
@@ -22,14 +23,24 @@ class Rescue {
   Rescue(const Coordinator& coordinator, Among among, CoordinatorWorkspace& workspace)
       : coordinator_(coordinator), among_(std::move(among)), workspace_(workspace) {}
 
+  /// How patient the searches are, in rounds: the first makes do with the ways at hand.
+  struct Rounds {
+    int first, last;
+  };
+  static constexpr Rounds by_ways() { return {kNoSearch, kNoSearch}; }
+  static constexpr Rounds all() { return {kNoSearch, SpaceTimePlanner::kMostPatience}; }
+
   /// Gives the cars of `group` (few) new motions among the others of `state`, which keep theirs. False: not
   /// found, `state` as it was.
-  bool run(std::span<const int> group, TeamState& state, const Deadline& deadline);
+  bool run(std::span<const int> group, TeamState& state, const Deadline& deadline, Rounds rounds = all());
 
  private:
+  static constexpr int kNoSearch = -1;
+
   bool attempt(const std::vector<int>& order, double delay, int patience, TeamState& state);
   TeamState best_of_orders(std::vector<int> order, double delay, int patience, const TeamState& without,
                            const Deadline& deadline);
+  std::vector<double> delays(const std::vector<int>& order, int patience) const;
   void settle(const std::vector<int>& order, TeamState& state);
 
   const Coordinator& coordinator_;

@@ -19,6 +19,16 @@ double clear_ahead(const RollingStart& start, double length) {
   return checker.reach(start.pose, checker.room(start.pose), {0.0, start.gear() * length});
 }
 
+Path straight_on(const RollingStart& start, double length) {
+  const int samples = 1 + static_cast<int>(length / (kSpacing * start.model->length()));
+  Path path;
+  for (int i = 0; i <= samples; ++i) {
+    const double s = length * i / samples;
+    path.points.push_back({s, vehicle::drive(start.pose, 0.0, start.gear() * s), 0.0, start.gear()});
+  }
+  return path;
+}
+
 }  // namespace
 
 double RollingStart::braking_distance(double share) const {
@@ -42,21 +52,24 @@ std::optional<Path> brake_straight(const RollingStart& start, double share) {
   // The profile's steps need a little more than the formula.
   const double length = start.braking_distance(share) + 0.02 * start.braking_distance(1.0);
   if (clear_ahead(start, length) < length) return std::nullopt;
-  const int samples = 1 + static_cast<int>(length / (kSpacing * start.model->length()));
-  Path path;
-  for (int i = 0; i <= samples; ++i) {
-    const double s = length * i / samples;
-    path.points.push_back({s, vehicle::drive(start.pose, 0.0, start.gear() * s), 0.0, start.gear()});
-  }
-  return path;
+  return straight_on(start, length);
+}
+
+std::optional<Path> brake_before_obstacle(const RollingStart& start, double share) {
+  const double least = start.braking_distance(share);
+  const double clear = clear_ahead(start, least + 0.2 * start.braking_distance(1.0));
+  if (clear < least) return std::nullopt;
+  return straight_on(start, clear);
 }
 
 std::string no_room_to_stop(const RollingStart& start) {
-  const double needed = start.braking_distance(1.0), clear = clear_ahead(start, needed);
-  if (clear >= needed) return {};
-  char text[160];
-  std::snprintf(text, sizeof text, "drives at %.2f m/s and needs %.3f m to stop; %.3f m are clear ahead",
-                std::abs(start.speed), needed, clear);
+  constexpr double kAmple = 1.15;  // of the braking distance: with more than that it is not the braking
+  const double needed = start.braking_distance(1.0), clear = clear_ahead(start, kAmple * needed);
+  if (clear >= kAmple * needed) return {};
+  char text[240];
+  std::snprintf(text, sizeof text, "drives at %.2f m/s and needs %.3f m to stop; %.3f m are clear ahead%s",
+                std::abs(start.speed), needed, clear,
+                clear < needed ? "" : ", too little to spare for a plan; a lower speed may help");
   return text;
 }
 

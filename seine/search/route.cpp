@@ -9,6 +9,7 @@ namespace {
 
 using vehicle::Arc;
 
+constexpr double kStraightPoints = 4096.0, kBentPoints = 1e6;
 constexpr double kNoLength = 1e-9;       // m: rounding of closed forms, not a move
 constexpr double kSameCurvature = 1e-9;  // 1/m
 
@@ -112,7 +113,9 @@ Path sampled(const Route& route, double spacing) {
     if (i > 0 && arc.gear() != arcs[i - 1].gear()) {
       path.points.push_back({s, pose, arcs[i - 1].curvature, arcs[i - 1].gear()});
     }
-    const int steps = std::max(1, static_cast<int>(std::ceil(length / spacing - 1e-9)));
+    // Of a straight line more would say nothing.
+    const double most = arc.curvature == 0.0 ? kStraightPoints : kBentPoints;
+    const int steps = static_cast<int>(std::clamp(std::ceil(length / spacing - 1e-9), 1.0, most));
     for (int k = 0; k < steps; ++k) {
       const double along = length * k / steps;
       path.points.push_back(

@@ -18,6 +18,7 @@ struct Route {
   geom::Pose2 start;
   geom::Pose2 goal;
   std::vector<vehicle::Arc> arcs;
+  bool wriggles = false;  ///< see Path
 };
 
 /// What a route costs, in metres driven forwards on free ground.

@@ -64,6 +64,7 @@ std::optional<Path> SpaceTimePlanner::plan(const geom::Pose2& start, const geom:
   const geom::Vec2 reference{disc.x, cover_.axis};
   const CostToGoCache::Loan to_go(
       cache_, {.distances = &distances_, .radius = disc.inner + options.clearance}, goal * reference);
+  to_go.get()->until(options.deadline);
   FootprintChecker free(map_, &distances_, model_, options.clearance);
   const double room_start = free.exact_room(start), room_goal = free.exact_room(goal);
   const Rung& rung = kRungs[std::clamp(options.patience, 0, kMostPatience)];

@@ -9,6 +9,7 @@ namespace {
 constexpr int kWordBits = 64;
 constexpr int kGroupUnits = 4;
 constexpr int kChunkGroups = 8;
+constexpr double kMostUnits = 2e6;  // of a stretch: finer than any way needs
 // A move tested at its middle may have reached a quarter unit further than its integer place, and within the
 // quarter step before and after the test the half level it gains or loses: 1/4 + 1/4 + 1/16 units on top of
 // level / 2.
@@ -46,6 +47,10 @@ SpeedGrid speed_grid(const vehicle::Model& model, const LatticeOptions& options)
   grid.speed = std::min(options.speed_factor * limits.speed, std::sqrt(100.0 * length * grid.acceleration));
   grid.acceleration = std::min(
       grid.acceleration, grid.speed * grid.speed / (2.0 * kFewestLevels * kFewestLevels * kFinest * length));
+  if (options.least_unit > 0.0)
+    grid.acceleration =
+        std::min(grid.acceleration,
+                 grid.speed * grid.speed / (2.0 * kFewestLevels * kFewestLevels * options.least_unit));
   grid.reverse_speed = std::min(options.speed_factor * limits.reverse_speed, grid.speed);
   grid.lateral = options.lateral_factor * limits.lateral_acceleration;
   const double wanted = grid.speed / std::sqrt(2.0 * grid.acceleration * length / options.units_per_length);
@@ -83,11 +88,14 @@ void SpeedLattice::cut_stretches(double start_speed) {
   start_level_ = std::min(grid_.levels, static_cast<int>(start_speed_ / (grid_.acceleration * grid_.step)));
   std::size_t from = 0;
   for (std::size_t i = 1; i <= p.size() && drivable_; ++i) {
-    if (i < p.size() && p[i].gear == p[from].gear) continue;
+    const bool goes_on = i < p.size() && p[i].gear == p[from].gear;
+    const bool rests = goes_on && std::ranges::binary_search(path_.rests, p[i].s);
+    if (goes_on && !rests) continue;
     const double slowest = p[from].gear > 0 ? grid_.speed : grid_.reverse_speed;
-    const double end = p[i - 1].s;
+    const double end = p[rests ? i : i - 1].s;
     constexpr double kNothing = 1e-9;
     if (end - p[from].s > kNothing) drivable_ = add_stretch(p[from].s, end, p[from].gear, slowest);
+    drivable_ = drivable_ && units_ < kMostUnits;
     from = i;
   }
   if (stretches_.empty()) {  // it stands where it is going
@@ -107,7 +115,7 @@ bool SpeedLattice::add_stretch(double begin, double end, int gear, double slowes
        ++pass) {  // the braking way and the unit depend on each other: a contraction
     if (moving) stub = 0.5 * (start_speed_ + start_level_ * 2.0 * scaled / grid_.step) * grid_.step;
     const double length = end - begin - stub;
-    if (length <= 0.0) return false;
+    if (length <= 0.0 || !(length < kMostUnits * unit)) return false;
     if (pass == 0) count = 2 * static_cast<int>(std::ceil((length / unit - parity) / 2.0 - 1e-9)) + parity;
     count = std::max(count, 2 - parity);
     scaled = length / count;
@@ -172,15 +180,29 @@ void SpeedLattice::reach_speeds() {
   for (int b = units_ - 1; b >= 0; --b)
     attainable2_[idx(b)] = std::min(attainable2_[idx(b)], attainable2_[idx(b + 1)] + 1.0);
   if (attainable2_[0] < start_level_ * start_level_ - 1e-9) drivable_ = false;
+  left_.assign(idx(units_ + 1), 0.0);
+  for (int b = units_ - 1; b >= 0; --b) left_[idx(b)] = left_[idx(b + 1)] + quickest_over(b);
 }
 
-// From level k to level m over one unit takes 1 / (k + m) time steps at constant acceleration. Tests look one
-// unit ahead at most.
+// Ticks from unit b to the next: from level k to level m over one unit takes 1 / (k + m) time steps at
+// constant acceleration.
+double SpeedLattice::quickest_over(int b) const {
+  return 2.0 / (std::sqrt(attainable2_[idx(b)]) + std::sqrt(attainable2_[idx(b + 1)]));
+}
+
+int SpeedLattice::hopeless(int ticks) const {
+  constexpr double kRounding = 1e-6;
+  const auto first = std::partition_point(
+      left_.begin(), left_.end(), [&](double left) { return left > (1.0 + kRounding) * ticks + kRounding; });
+  return static_cast<int>(first - left_.begin());
+}
+
+// Tests look one unit ahead at most.
 std::vector<int> SpeedLattice::reach() const {
   std::vector<int> furthest;
   double tick = 2.0 * start_step();
   for (int b = 0; b < units_; ++b) {
-    tick += 2.0 / (std::sqrt(attainable2_[idx(b)]) + std::sqrt(attainable2_[idx(b + 1)]));
+    tick += quickest_over(b);
     while (static_cast<double>(furthest.size()) < tick) furthest.push_back(std::min(b + 1, units_));
   }
   return furthest;
@@ -246,7 +268,8 @@ void SpeedLattice::add_group(const SweptFootprint& footprint, int first, int las
   const double middle = 0.5 * (s_at(first) + s_at(last));
   const geom::Pose2 pose = cursor.advance(middle);
   Slack slack;
-  const bool resting = first == last && ((first == 0 && !stub_) || first == units_);
+  const bool resting = first == last && ((first == 0 && !stub_) || first == units_ ||
+                                         (careful_ && attainable2_[idx(first)] == 0.0));
   if (!resting) {
     double level2 = 0.0;
     for (int b = first; b <= last; ++b) level2 = std::max(level2, attainable2_[idx(b)]);

@@ -18,7 +18,8 @@ struct LatticeOptions {
   double acceleration_factor = 0.85;  ///< of the longitudinal limit
   double lateral_factor = 0.90;       ///< of the lateral limit
   double units_per_length =
-      35.0;  ///< wanted lattice units in a car's length: fixes the number of speed levels
+      35.0;                 ///< wanted lattice units in a car's length: fixes the number of speed levels
+  double least_unit = 0.0;  ///< m: ways of many kilometres have units no smaller than this
 };
 
 /// The lattice of one kind of car. Time goes in steps Δt, speed in K levels k·aΔt, the way in units u =
@@ -82,6 +83,8 @@ class SpeedLattice {
   /// By tick (half time steps): the furthest unit where the car can be tested by then. It ends when the goal
   /// can be reached: no plan takes fewer ticks than it has entries.
   std::vector<int> reach() const;
+  /// The first unit from which the goal may be reached within so many ticks: from those before it, it cannot.
+  int hopeless(int ticks) const;
   std::span<const Group> groups() const { return groups_; }
   std::span<const Chunk> chunks() const { return chunks_; }
   std::span<const geom::Vec2> polygon(std::size_t group) const {
@@ -101,6 +104,7 @@ class SpeedLattice {
   void limit_speeds();
   void slow_in_bends();
   void reach_speeds();
+  double quickest_over(int b) const;
   void build_moves();
   void build_groups(const SweptFootprint& footprint);
   void stay_on_the_way(int first, int last, double middle, Slack& slack) const;
@@ -118,6 +122,7 @@ class SpeedLattice {
   std::vector<double> curvature_;    // 1/m, per unit, largest within one unit
   std::vector<double> allowed_;      // levels, per unit: what limits and curvature allow
   std::vector<double> attainable2_;  // levels², per unit: with the acceleration limit as well
+  std::vector<double> left_;         // ticks, per unit: no drive from there to the goal takes fewer
   std::vector<std::uint64_t> moves_;
   std::vector<Group> groups_;
   std::vector<Chunk> chunks_;

@@ -9,11 +9,12 @@
 
 #include "seine/base/rng.hpp"
 #include "seine/base/workers.hpp"
-#include "seine/search/bays.hpp"
 #include "seine/search/blockers.hpp"
 #include "seine/search/coordinator.hpp"
 #include "seine/search/drive_time.hpp"
 #include "seine/search/leaving.hpp"
+#include "seine/search/making_way.hpp"
+#include "seine/search/no_passing.hpp"
 #include "seine/search/path_planner.hpp"
 #include "seine/search/precedence.hpp"
 #include "seine/search/refusal.hpp"
@@ -29,6 +30,14 @@ namespace {
 
 std::size_t idx(int i) {
   return static_cast<std::size_t>(i);
+}
+
+constexpr std::size_t kMostPairs = 4'000'000;  // of cells in a proof: some tenths of a second
+
+std::vector<PathPlanner> planners_for(const world::Scenario& scenario, const world::StaticMap& map) {
+  std::vector<PathPlanner> planners;
+  for (const vehicle::Model& model : scenario.models) planners.emplace_back(map, model);
+  return planners;
 }
 
 // A set of ways for everybody, and how far it got with them.
@@ -52,8 +61,7 @@ class Guess {
   std::optional<Path> find_path_out(const world::Robot& who, const PathOptions& options) const;
   std::optional<Path> find_path_among(int robot, std::span<const Traffic> traffic,
                                       const TeamSearch::Sources::Among& how) const;
-  std::vector<Path> ways_by_bays(int robot, int other, const Path& way, const Path& others) const;
-  TeamSearch::Sources sources() const;
+  TeamSearch::Sources sources();
   Attempt new_attempt() const;
   std::optional<Path> find_first_way(int robot) const;
   bool find_first_ways(Attempt& attempt);
@@ -71,14 +79,19 @@ class Guess {
   std::vector<PathPlanner> planners_;                             // one for each model
   std::deque<SideStep> side_steps_;                               // likewise
   mutable std::vector<std::unique_ptr<SpaceTimePlanner>> among_;  // likewise, made when first needed
+  MakingWay making_way_;
   TeamGuess guess_;
 };
 
 Guess::Guess(const world::Scenario& scenario, const world::StaticMap& map, const GuessOptions& options)
-    : scenario_(scenario), map_(map), options_(options) {
+    : scenario_(scenario),
+      map_(map),
+      options_(options),
+      planners_(planners_for(scenario, map)),
+      making_way_(scenario, map, planners_,
+                  {scenario.margins.robot + options.extra_robot_clearance, options.deadline}) {
   Stopwatch watch;
   for (const vehicle::Model& model : scenario.models) {
-    planners_.emplace_back(map, model);
     side_steps_.emplace_back(map, model, scenario.margins.obstacle);
   }
   among_.resize(scenario.models.size());
@@ -150,8 +163,10 @@ std::optional<Path> Guess::find_path_from(const world::Robot& who, const geom::P
   std::optional<Path> path = planner.plan(start, *who.goal, plainly);
   // Where that failed the car brakes first.
   if (path && options_.quickest && follows(rolling, *path, hardest)) return path;
-  for (const double share : {0.7 * hardest, hardest}) {
-    std::optional<Path> braking = brake_straight(rolling, share);
+  const std::optional<Path> ways_to_brake[] = {brake_straight(rolling, 0.7 * hardest),
+                                               brake_straight(rolling, hardest),
+                                               brake_before_obstacle(rolling, hardest)};
+  for (std::optional<Path> braking : ways_to_brake) {
     if (!braking) continue;
     const std::optional<Path> onwards = planner.plan(braking->points.back().pose, *who.goal, options);
     if (!onwards) continue;
@@ -161,30 +176,7 @@ std::optional<Path> Guess::find_path_from(const world::Robot& who, const geom::P
   return path && path->length() > 0.0 && path->points.front().gear == rolling.gear() ? path : std::nullopt;
 }
 
-// Ways that turn off into a place beside the way, where the other can drive by.
-std::vector<Path> Guess::ways_by_bays(int robot, int other, const Path& way, const Path& others) const {
-  constexpr int kBriefly = 4000;
-  const world::Robot& who = scenario_.robots[idx(robot)];
-  const PathPlanner& planner = planners_[idx(who.model)];
-  const PathOptions options{.max_expansions = kBriefly,
-                            .clearance = scenario_.margins.obstacle,
-                            .quickest = true,
-                            .deadline = options_.deadline};
-  std::vector<Path> ways;
-  if (who.start_speed != 0.0) return ways;
-  for (const geom::Pose2& bay :
-       bays_beside({&map_, &scenario_.model_of(who), &way, &scenario_.model_of(scenario_.robots[idx(other)]),
-                    &others, scenario_.margins.obstacle, scenario_.margins.robot})) {
-    std::optional<Path> path = planner.plan(who.start, bay, options);
-    const std::optional<Path> rest = path ? planner.plan(bay, *who.goal, options) : std::nullopt;
-    if (!rest) continue;
-    append(*path, *rest);
-    ways.push_back(*std::move(path));
-  }
-  return ways;
-}
-
-TeamSearch::Sources Guess::sources() const {
+TeamSearch::Sources Guess::sources() {
   return {[this](int robot, std::span<const Bump> bumps, std::span<const std::vector<geom::Vec2>> parked,
                  int expansions) { return find_path(robot, bumps, parked, expansions); },
           [this](int robot, const Path& path, double s, double offset, double beside) {
@@ -193,14 +185,19 @@ TeamSearch::Sources Guess::sources() const {
           [this](int robot, std::span<const Traffic> traffic, const TeamSearch::Sources::Among& how) {
             return find_path_among(robot, traffic, how);
           },
-          [this](int robot, int other, const Path& way, const Path& others) {
-            return ways_by_bays(robot, other, way, others);
-          }};
+          [this](int robot, const Path& way, const MakingWay::Other& other) {
+            return making_way_.by_bays(robot, way, other);
+          },
+          [this](int robot, const Path& way, std::span<const MakingWay::Other> others) {
+            return making_way_.by_refuges(robot, way, others);
+          },
+          [this](int a, int b) { return cannot_both_arrive(scenario_, map_, a, b, kMostPairs); }};
 }
 
 // Nobody has a way yet; who is fixed has its motion.
 Attempt Guess::new_attempt() const {
-  Attempt attempt{std::make_unique<Coordinator>(scenario_, options_.lattice, options_.extra_robot_clearance),
+  Attempt attempt{std::make_unique<Coordinator>(scenario_, options_.lattice, options_.extra_robot_clearance,
+                                                options_.deadline),
                   TeamState(scenario_.robots.size())};
   if (options_.fixed != nullptr)
     for (std::size_t i = 0; i < scenario_.robots.size(); ++i)
@@ -223,7 +220,7 @@ std::optional<Path> Guess::find_first_way(int robot) const {
   if (alone && options_.seed != 0) best = find_path(robot, bumps(options_.seed), {}, kPatience);
   if (!best) best = find_path(robot, {}, {}, kPatience);
   if (!alone || options_.seed != 0 || !options_.quickest || who.start_speed != 0.0) return best;
-  if (!best || !changes_gear(*best)) return best;
+  if (!best || !changes_gear(*best) || best->wriggles) return best;
   double quickest = drive_time(*best, model);
   for (std::uint64_t seed = 1; seed <= kMoreWays && !options_.deadline.expired(); ++seed) {
     std::optional<Path> other = find_path(robot, bumps(seed), {}, kBriefly);
@@ -292,6 +289,10 @@ void Guess::coordinate(Attempt& attempt) {
   TeamSearch search(*attempt.coordinator, sources(), options_.team, options_.seed);
   attempt.complete = search.solve(attempt.state, options_.deadline, first_order(*attempt.coordinator));
   if (attempt.complete) search.improve(attempt.state, options_.deadline);
+  if (search.hopeless()) {
+    guess_.reason = cannot_pass_sentence(scenario_, search.hopeless()->first, search.hopeless()->second);
+    guess_.impossible = true;
+  }
   guess_.effort = search.effort();
 }
 
@@ -404,7 +405,7 @@ TeamGuess guess_team(const world::Scenario& scenario, const world::StaticMap& ma
   guess.extra_robot_clearance = options.extra_robot_clearance;
   const bool rolling = std::any_of(scenario.robots.begin(), scenario.robots.end(),
                                    [](const world::Robot& robot) { return robot.start_speed != 0.0; });
-  if (!guess.complete && rolling && !options.deadline.expired()) {
+  if (!guess.complete && !guess.impossible && rolling && !options.deadline.expired()) {
     constexpr double kHard = 0.985;  // of the limits, where a car has to stop at once
     GuessOptions hard = options;
     hard.lattice.acceleration_factor = kHard;
@@ -413,13 +414,15 @@ TeamGuess guess_team(const world::Scenario& scenario, const world::StaticMap& ma
   }
   // Cars that start nose to nose may not be able to part with more room than the margin.
   for (const double share : {0.5, 0.0}) {
-    if (guess.complete || options.extra_robot_clearance <= 0.0 || options.deadline.expired()) break;
+    if (guess.complete || guess.impossible || options.extra_robot_clearance <= 0.0 ||
+        options.deadline.expired())
+      break;
     GuessOptions less = options;
     less.extra_robot_clearance = share * options.extra_robot_clearance;
     guess = Guess(scenario, map, less).run();
     guess.extra_robot_clearance = less.extra_robot_clearance;
   }
-  if (!guess.complete && !options.explain) return guess;
+  if (guess.impossible || (!guess.complete && !options.explain)) return guess;
   if (!guess.without_way.empty()) {
     Verdict verdict = why_no_ways(scenario, map, guess.without_way, options.deadline.expired());
     guess.reason = std::move(verdict.reason);

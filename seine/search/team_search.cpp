@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "seine/geom/convex.hpp"
-#include "seine/search/rescue.hpp"
-
 namespace seine::search {
 namespace {
 
@@ -68,6 +65,7 @@ bool TeamSearch::solve(TeamState& state, const Deadline& deadline, std::span<con
       fewest = left;
       best = state;
     }
+    if (hopeless_) break;
     for (double& key : keys) key = rng_.uniform();
     order = precedence_.order(keys);
   }
@@ -203,116 +201,19 @@ TeamSearch::Placed TeamSearch::around_the_parked(int robot, const TeamState& sta
     if (!state[idx(other)]) park(coordinator_.footprint_at(other, scenario.robots[idx(other)].start));
   }
   ++effort_.paths;
-  const WayPtr way = keep_path(robot, sources_.search(robot, {}, parked, options_.parked_expansions));
+  const WayPtr way = keep_path(robot, path_around(robot, std::move(parked)));
   if (!way) ++futile_[idx(robot)];
   if (!way) return nullptr;
   return coordinator_.place_on(robot, way, state, workspace_);
 }
 
-// A path that a space-time search finds among the others, where the ways at hand lead nowhere or make it
-// late.
-TeamSearch::Placed TeamSearch::among(int robot, const TeamState& state, Placed best, int patience) {
-  if (!sources_.among || (best && !late(robot, best->arrival))) return best;
-  const std::vector<Traffic> traffic = coordinator_.traffic(robot, state);
-  if (patience == 1) {
-    const Placed placed = around_the_resting(robot, state, traffic);
-    if (placed && (!best || placed->arrival < best->arrival)) best = placed;
-    if (best && !late(robot, best->arrival)) return best;
-  }
-  for (const double pace : {0.7, 0.4}) {
-    ++effort_.rescues;
-    std::optional<Path> path = sources_.among(robot, traffic, {pace, patience, best != nullptr});
-    if (!path) break;
-    const Placed placed = place_along(robot, *path, state);
-    if (placed && (!best || placed->arrival < best->arrival)) best = placed;
-    if (placed) break;
-  }
-  return best;
-}
-
-// Who waits long for moving obstacles may be quicker around them.
-void TeamSearch::overtake(TeamState& state) {
-  const auto& obstacles = coordinator_.scenario().obstacles;
-  if (std::all_of(obstacles.begin(), obstacles.end(), world::stands_still)) return;
-  for (int robot = 0; robot < coordinator_.robots(); ++robot) {
-    if (coordinator_.fixed(robot)) continue;
-    TeamState others = state;
-    others[idx(robot)] = nullptr;
-    state[idx(robot)] = among(robot, others, state[idx(robot)], 0);
-  }
-}
-
-// A path around where everything that moves comes to rest: all it may take beside it is patience.
-TeamSearch::Placed TeamSearch::around_the_resting(int robot, const TeamState& state,
-                                                  std::span<const Traffic> traffic) {
-  std::vector<std::vector<geom::Vec2>> parked;
-  for (const Traffic& other : traffic) {
-    const auto last = other.body->polygon(static_cast<int>(other.body->events().size()) - 1);
-    parked.push_back(geom::convex_hull({last.begin(), last.end()}));  // corners may fall together
-  }
-  ++effort_.paths;
-  const std::optional<Path> path = sources_.search(robot, {}, parked, options_.parked_expansions);
-  return path ? place_along(robot, *path, state) : nullptr;
-}
-
-// On a new path, carefully if it must be.
-TeamSearch::Placed TeamSearch::place_along(int robot, const Path& path, const TeamState& state) {
-  for (const bool careful : {false, true}) {
-    const std::shared_ptr<Way> way = coordinator_.make_way(robot, path, careful);
-    if (!way || !coordinator_.finish_way(*way)) continue;
-    Placed placed = coordinator_.place_on(robot, way, state, workspace_);
-    if (!placed) continue;
-    keep(robot, way);
-    return placed;
-  }
-  return nullptr;
-}
-
-// Where two cannot pass each other, one may wait beside its way: ways by such places are at hand from now on.
-// Ends that stand at the margin to each other are reached carefully.
-void TeamSearch::add_bays(const std::vector<int>& group) {
-  for (const int robot : group)
-    if (!coordinator_.ways(robot).empty())
-      keep(robot, coordinator_.make_way(robot, fastest_way(robot)->lattice.path(), true));
-  for (const int robot : group)
-    for (const int other : group) {
-      if (robot == other || !sources_.by_bays || coordinator_.ways(robot).empty() ||
-          coordinator_.ways(other).empty())
-        continue;
-      const Path way = fastest_way(robot)->lattice.path(), others = fastest_way(other)->lattice.path();
-      for (Path& path : sources_.by_bays(robot, other, way, others))
-        keep(robot, coordinator_.make_way(robot, std::move(path), true));
-    }
-}
-
-// Few cars: all of them once more, one after the other among those before. Many: each that has no motion
-// together with those in its way.
-bool TeamSearch::rescue(TeamState& state, const TeamState& given, const Deadline& deadline) {
-  if (!sources_.among) return false;
-  constexpr std::size_t kFew = 3;
-  Rescue rescue(
-      coordinator_,
-      [this](int robot, const TeamState& others, Placed best, int patience) {
-        return among(robot, others, best, patience);
-      },
-      workspace_);
-  std::vector<int> free;
-  for (int robot = 0; robot < coordinator_.robots(); ++robot)
-    if (!given[idx(robot)]) free.push_back(robot);
-  if (free.size() <= kFew) {
-    add_bays(free);
-    return rescue.run(free, state, deadline);
-  }
-  for (int robot = 0; robot < coordinator_.robots(); ++robot) {
-    if (state[idx(robot)]) continue;
-    std::vector<int> group{robot};
-    if (rescue.run(group, state, deadline)) continue;
-    for (const auto& conflict : coordinator_.conflicts(robot, *fastest_way(robot), state, workspace_))
-      if (group.size() < kFew && conflict.robot >= 0 && !coordinator_.fixed(conflict.robot))
-        group.push_back(conflict.robot);
-    if (!rescue.run(group, state, deadline)) return false;
-  }
-  return true;
+// Repairs ask again and again for a way around the same cars.
+const std::optional<Path>& TeamSearch::path_around(int robot, std::vector<std::vector<geom::Vec2>> parked) {
+  for (const Around& known : around_)
+    if (known.robot == robot && known.parked == parked) return known.path;
+  std::optional<Path> path = sources_.search(robot, {}, parked, options_.parked_expansions);
+  around_.push_back({robot, std::move(parked), std::move(path)});
+  return around_.back().path;
 }
 
 bool TeamSearch::may_search() const {
@@ -320,10 +221,10 @@ bool TeamSearch::may_search() const {
 }
 
 // When there are too many, another one than the first goes.
-bool TeamSearch::keep(int robot, const std::shared_ptr<Way>& way) {
+bool TeamSearch::keep(int robot, const std::shared_ptr<Way>& way, int most) {
   if (!way || !coordinator_.finish_way(*way)) return false;
   const int count = static_cast<int>(coordinator_.ways(robot).size());
-  if (count >= options_.most_ways) coordinator_.drop_way(robot, 1 + rng_.below(count - 1));
+  if (count >= std::max(most, options_.most_ways)) coordinator_.drop_way(robot, 1 + rng_.below(count - 1));
   coordinator_.keep_way(robot, way);
   return true;
 }

@@ -5,11 +5,13 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "seine/base/deadline.hpp"
 #include "seine/base/rng.hpp"
 #include "seine/search/coordinator.hpp"
+#include "seine/search/making_way.hpp"
 #include "seine/search/path_planner.hpp"
 #include "seine/search/precedence.hpp"
 
@@ -55,8 +57,12 @@ class TeamSearch {
       bool hurry;    ///< likewise
     };
     std::function<std::optional<Path>(int robot, std::span<const Traffic> traffic, const Among& how)> among;
-    /// Paths of `robot` by a place beside its way where the other can drive by on its own way.
-    std::function<std::vector<Path>(int robot, int other, const Path& way, const Path& others)> by_bays;
+    /// As MakingWay.
+    std::function<std::vector<Path>(int robot, const Path& way, const MakingWay::Other& other)> by_bays;
+    std::function<std::vector<Path>(int robot, const Path& way, std::span<const MakingWay::Other> others)>
+        by_refuges;
+    /// Whether it is proved that not both can arrive.
+    std::function<bool(int a, int b)> cannot_both;
   };
 
   TeamSearch(Coordinator& coordinator, Sources sources, const TeamSearchOptions& options, std::uint64_t seed);
@@ -69,9 +75,11 @@ class TeamSearch {
     int paths = 0;       ///< searched for
     int side_steps = 0;  ///< that were free of obstacles
     int placements = 0;  ///< velocity plans among the others, over all ways
-    int rescues = 0;     ///< space-time searches
+    int rescues = 0;     ///< rescues begun, and space-time searches
   };
   const Effort& effort() const { return effort_; }
+  /// Two robots of which it is proved that not both can arrive, if that is why there is no solution.
+  const std::optional<std::pair<int, int>>& hopeless() const { return hopeless_; }
   /// Lowers the sum of arrivals of a complete state; never makes it worse.
   void improve(TeamState& state, const Deadline& deadline);
 
@@ -83,16 +91,20 @@ class TeamSearch {
                    double latest = std::numeric_limits<double>::infinity());
   Placed detour(int robot, const TeamState& state, Placed best, int tries);
   Placed around_the_parked(int robot, const TeamState& state, bool goals);
+  const std::optional<Path>& path_around(int robot, std::vector<std::vector<geom::Vec2>> parked);
   Placed among(int robot, const TeamState& state, Placed best, int patience);
   void overtake(TeamState& state);
   Placed around_the_resting(int robot, const TeamState& state, std::span<const Traffic> traffic);
   void add_bays(const std::vector<int>& group);
+  void add_refuges(const std::vector<int>& group);
+  std::vector<MakingWay::Other> others_of(int robot, const std::vector<int>& group) const;
+  bool prove_hopeless(const std::vector<int>& group);
   bool rescue(TeamState& state, const TeamState& given, const Deadline& deadline);
   bool may_search() const;
   Placed place_somehow(int robot, const TeamState& state);
   void repair(TeamState& state, const Deadline& deadline);
   void shuffle(std::vector<int>& list, int from);
-  bool keep(int robot, const std::shared_ptr<Way>& way);
+  bool keep(int robot, const std::shared_ptr<Way>& way, int most = 0);
   Placed place_along(int robot, const Path& path, const TeamState& state);
   std::shared_ptr<Way> keep_path(int robot, std::optional<Path> path);
   bool late(int robot, double arrival) const;
@@ -108,6 +120,13 @@ class TeamSearch {
   Precedence precedence_;
   CoordinatorWorkspace workspace_;
   Effort effort_;
+  std::optional<std::pair<int, int>> hopeless_;
+  struct Around {
+    int robot;
+    std::vector<std::vector<geom::Vec2>> parked;
+    std::optional<Path> path;  // found around them
+  };
+  std::vector<Around> around_;
   std::vector<int> futile_;  // by robot: searches around the parked that found nothing
   int searches_ = 0;         // effort_.paths may not grow beyond
 };

@@ -7,6 +7,8 @@ namespace seine::search {
 namespace {
 
 constexpr int kWordBits = 64;
+constexpr int kLayersPerLook = 64;                               // at the clock
+constexpr std::size_t kMostWords = std::size_t{256} << 20 >> 3;  // 256 MiB of states
 
 std::size_t idx(int i) {
   return static_cast<std::size_t>(i);
@@ -22,24 +24,36 @@ int middle_of(int level, int change) {
   return level == 0 && change == 1 ? 1 : level == 1 && change == -1 ? 0 : level;
 }
 
-// The search itself. Layer t holds, for each speed level, the set of units where the car can be at tick 2t.
+// The search itself. Layer t holds, for each speed level, the set of units where the car can be at tick 2t:
+// only the words between the first and the last in which anything is alive are kept.
 class Program {
  public:
   Program(const SpeedLattice& lattice, VelocityWorkspace& workspace, const VelocityOptions& options)
       : lattice_(lattice),
         occupied_(workspace.occupied),
-        layers_(workspace.layers),
+        bits_(workspace.layers),
+        layers_(workspace.windows),
         options_(options),
         levels_(lattice.grid().levels),
-        words_(lattice.words()),
-        stride_(idx((levels_ + 1) * words_)) {}
+        words_(lattice.words()) {}
 
   VelocityPlan run();
 
  private:
   const std::uint64_t* taken(int tick) const { return occupied_.row(std::min(tick, occupied_.ticks() - 1)); }
-  std::uint64_t* level(int layer, int k) { return &layers_[idx(layer) * stride_ + idx(k * words_)]; }
-  void advance(int layer);
+  // The words of level k; the word w of the way is at w − layers_[layer].low.
+  std::uint64_t* level(int layer, int k) {
+    const LayerWindow& window = layers_[idx(layer)];
+    return &bits_[window.begin + idx(k) * idx(window.words)];
+  }
+  bool holds(int layer, int k, int unit) {
+    const LayerWindow& window = layers_[idx(layer)];
+    const int word = unit / kWordBits - window.low;
+    return word >= 0 && word < window.words && (level(layer, k)[word] >> (unit % kWordBits) & 1) != 0;
+  }
+  bool add_layer(int low, int high);
+  bool given_up(int layer) const { return layer % kLayersPerLook == 0 && options_.deadline.expired(); }
+  bool advance(int layer);
   void shift_moves(int layer, int k, const std::uint64_t* middle);
   bool stays_free(int tick) const { return tick > last_taken_goal_; }
   std::vector<ProfileKnot> trace_back(int layer, std::vector<int>& tested);
@@ -47,40 +61,51 @@ class Program {
 
   const SpeedLattice& lattice_;
   const Occupied& occupied_;
-  std::vector<std::uint64_t>& layers_;
+  std::vector<std::uint64_t>& bits_;
+  std::vector<LayerWindow>& layers_;
   const VelocityOptions& options_;
   const int levels_, words_;
-  const std::size_t stride_;
   int low_ = 0, high_ = 0;  // words in which anything is alive
   bool alive_ = false;
   int last_taken_goal_ = -1;  // tick
 };
 
+// The next layer, empty. False: more memory than a velocity plan may have.
+bool Program::add_layer(int low, int high) {
+  const std::size_t begin = bits_.size(), count = idx(levels_ + 1) * idx(high - low + 1);
+  if (begin + count > kMostWords) return false;
+  layers_.push_back({begin, low, high - low + 1});
+  bits_.resize(begin + count, 0);
+  return true;
+}
+
 // States at `layer` to states at `layer + 1`.
-void Program::advance(int layer) {
-  layers_.resize(idx(layer + 2) * stride_);
-  std::fill_n(level(layer + 1, 0), stride_, 0);
+bool Program::advance(int layer) {
+  const int high = std::min(high_ + 1, words_ - 1);
+  if (!add_layer(low_, high)) return false;
   const std::uint64_t* middle = taken(2 * layer + 1);
   for (int k = 0; k <= levels_; ++k) shift_moves(layer, k, middle);
-  high_ = std::min(high_ + 1, words_ - 1);
+  high_ = high;
   const std::uint64_t* then = taken(2 * layer + 2);
   std::uint64_t low_alive = 0, high_alive = 0, any = 0;
   for (int k = 0; k <= levels_; ++k) {
     std::uint64_t* row = level(layer + 1, k);
-    for (int w = low_; w <= high_; ++w) any |= row[w] &= ~then[w];
-    low_alive |= row[low_];
-    high_alive |= row[high_];
+    for (int w = low_; w <= high_; ++w) any |= row[w - low_] &= ~then[w];
+    low_alive |= row[0];
+    high_alive |= row[high_ - low_];
   }
   alive_ = any != 0;
   if (low_alive == 0 && low_ < high_) ++low_;
   if (high_alive == 0 && low_ < high_) --high_;
+  return true;
 }
 
 void Program::shift_moves(int layer, int k, const std::uint64_t* middle) {
+  const LayerWindow &window = layers_[idx(layer)], &next = layers_[idx(layer + 1)];
   const std::uint64_t* from = level(layer, k);
-  int low = low_, high = high_;
-  while (low <= high && from[low] == 0) ++low;
-  while (low <= high && from[high] == 0) --high;
+  int low = low_, high = std::min(high_, window.low + window.words - 1);
+  while (low <= high && from[low - window.low] == 0) ++low;
+  while (low <= high && from[high - window.low] == 0) --high;
   if (low > high) return;
   for (int j = -1; j <= 1; ++j) {
     if (k + j < 0 || k + j > levels_) continue;
@@ -91,11 +116,11 @@ void Program::shift_moves(int layer, int k, const std::uint64_t* middle) {
     for (int w = low; w <= high; ++w) {
       std::uint64_t blocked = middle[w] >> ahead;
       if (ahead > 0) blocked |= middle[w + 1] << (kWordBits - ahead);  // rows are padded
-      const std::uint64_t moved = from[w] & allowed[w] & ~blocked;
-      into[w] |= moved << shift | carry;
+      const std::uint64_t moved = from[w - window.low] & allowed[w] & ~blocked;
+      into[w - next.low] |= moved << shift | carry;
       carry = shift > 0 ? moved >> (kWordBits - shift) : 0;
     }
-    if (high + 1 < words_) into[high + 1] |= carry;
+    if (high + 1 < next.low + next.words) into[high + 1 - next.low] |= carry;
   }
 }
 
@@ -105,23 +130,23 @@ VelocityPlan Program::run() {
   for (int q = occupied_.ticks() - 1; q >= 0 && last_taken_goal_ < 0; --q)
     if (test(occupied_.row(q), goal)) last_taken_goal_ = q;
   if (last_taken_goal_ == occupied_.ticks() - 1) return plan;  // taken for good
-  layers_.assign(idx(first + 1) * stride_, 0);
+  bits_.clear();
+  layers_.clear();
+  for (int layer = 0; layer <= first; ++layer) add_layer(0, 0);
   if (!test(taken(0), 0) && !test(taken(first), 0) && !test(taken(2 * first), 0))
     *level(first, lattice_.start_level()) = 1;
   alive_ = *level(first, lattice_.start_level()) != 0;
-  for (int layer = first; 2 * layer <= options_.ticks; ++layer) {
-    if (test(level(layer, 0), goal) && stays_free(2 * layer)) {
+  for (int layer = first; 2 * layer <= options_.ticks && !given_up(layer); ++layer) {
+    if (holds(layer, 0, goal) && stays_free(2 * layer)) {
       plan.found = true;
       plan.tested.assign(idx(2 * layer + 1), 0);
       plan.profile = trace_back(layer, plan.tested);
       plan.arrival = plan.profile.back().t;
       return plan;
     }
-    // What lies further back cannot make it in time even at top speed.
-    const int hopeless = goal - 2 * levels_ * (options_.ticks / 2 - layer);
-    low_ = std::max(low_, hopeless / kWordBits);
-    if (!alive_ || low_ > high_) break;
-    advance(layer);
+    // What lies further back cannot make it in time even alone.
+    low_ = std::max(low_, lattice_.hopeless(options_.ticks - 2 * layer) / kWordBits);
+    if (!alive_ || low_ > high_ || !advance(layer)) break;
   }
   return plan;
 }
@@ -130,7 +155,7 @@ VelocityPlan Program::run() {
 bool Program::came_from(int layer, int k, int unit, int change) {
   const int before = k - change, from = unit - 2 * before - change;
   if (before < 0 || before > levels_ || from < 0) return false;
-  if (!test(level(layer, before), from) || !test(lattice_.moves(before, change), from)) return false;
+  if (!holds(layer, before, from) || !test(lattice_.moves(before, change), from)) return false;
   return !test(taken(2 * layer + 1), from + middle_of(before, change));
 }
 

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "seine/base/deadline.hpp"
 #include "seine/search/path.hpp"
 #include "seine/search/speed_lattice.hpp"
 #include "seine/search/traffic.hpp"
@@ -53,21 +54,29 @@ struct VelocityPlan {
       tested;  ///< when found: per tick, the unit the car is tested at, then at its goal for good
 };
 
+/// Where the states of one time step lie in VelocityWorkspace::layers, and which words of the way they are.
+struct LayerWindow {
+  std::size_t begin;
+  int low, words;
+};
+
 /// Memory that is used again from call to call.
 struct VelocityWorkspace {
   Occupied occupied;
   std::vector<std::uint64_t> layers;
+  std::vector<LayerWindow> windows;
 };
 
 struct VelocityOptions {
   int ticks =
       0;  ///< horizon, half time steps; when the row of a later tick is asked for, the last one is used
+  Deadline deadline{};  ///< nothing is found once it has passed
 };
 
 /// Exact dynamic programming over (way, speed, time): all states that can be reached at a time are one bitset
 /// over the way for each speed level, and a time step is three shifts for each level. The car may wait
-/// anywhere. Among the profiles of earliest arrival the one that leaves last is taken: waiting is done at the
-/// start where possible.
+/// anywhere. Finds nothing where the states would take more than 256 MiB. Among the profiles of earliest
+/// arrival the one that leaves last is taken: waiting is done at the start where possible.
 VelocityPlan plan_velocity(const SpeedLattice& lattice, VelocityWorkspace& workspace,
                            const VelocityOptions& options);
 

@@ -6,16 +6,22 @@
 #include <utility>
 
 #include "seine/net/flight.hpp"
+#include "seine/sim/pacing.hpp"
 #include "seine/sim/stopping.hpp"
 
 namespace seine::sim {
 namespace {
 
-constexpr double kLastAsk = 0.25;  // s before a catch the plan is left alone
-constexpr double kSilence = 0.1;   // s without an answer: a car is taken for broken
-constexpr double kBlind = 1.0;     // s without a fix are too long to go on
-constexpr int kFailures = 3;       // of a controller in a row are too many to go on
-constexpr double kOffWay = 0.5;    // m beside its reference a car is lost
+constexpr double kLastAsk = 0.25;      // s before a catch the plan is left alone
+constexpr double kSilence = 0.1;       // s without an answer: a car is taken for broken
+constexpr double kBlind = 1.0;         // s without a fix are too long to go on
+constexpr int kFailures = 3;           // of a controller in a row are too many to go on
+constexpr double kOffWay = 0.5;        // m beside its reference a car is lost …
+constexpr double kOffWayLong = 0.15;   // … or this part of its length, where that is more
+constexpr double kPaceResponse = 0.2;  // s in which the clock is brought to the pace of the slowest
+// 1/s: so fast the clock may slow down although a car brakes as hard as it can; that one gets some cm ahead.
+constexpr double kAlways = 0.25;
+constexpr double kAfterCrossing = 0.2;  // s: flights are not known better
 
 std::string centimetres(double metres) {
   char text[40];
@@ -34,11 +40,33 @@ std::string gain(const Worth& now, const Worth& then) {
   return text;
 }
 
+// When the last thing has happened that does not wait for the team: moving obstacles never wait.
+double free_of_time(const world::Scenario& scenario) {
+  double free = 0.0;
+  for (const world::Obstacle& obstacle : scenario.obstacles)
+    if (!world::stands_still(obstacle)) free = 1e300;
+  for (const net::Target& target : scenario.targets) {
+    const auto crossing = net::Flight(target).crossing(scenario.net->rim());
+    if (crossing) free = std::max(free, crossing->state.time + kAfterCrossing);
+  }
+  return free;
+}
+
 }  // namespace
 
 Conductor::Conductor(const world::Scenario& scenario, const traj::TeamTrajectory& plan,
                      const SimulationOptions& options, double start)
-    : scenario_(scenario), options_(options), plan_(plan), clock_(start) {}
+    : scenario_(scenario),
+      options_(options),
+      plan_(plan),
+      clock_(start),
+      free_from_(free_of_time(scenario)) {}
+
+void Conductor::advance(double duration) {
+  const double before = clock_.time();
+  clock_.advance(duration);
+  if (!stopping_) waited_ += duration - (clock_.time() - before);
+}
 
 std::string Conductor::name(std::size_t robot) const {
   const std::string& given = scenario_.robots[robot].name;
@@ -62,8 +90,18 @@ void Conductor::decide(double time, std::span<const Car> cars, const std::vector
     clock_.accelerate(stopping_change(scenario_, plan_, clock_, silent_, silent));
     return;
   }
+  keep_together(time, cars);
   if (candidate_ && time >= candidate_->begin - 1e-9) weigh(time, in_the_air);
   if (time_to_ask(time, in_the_air)) ask(time, in_the_air);
+}
+
+// Slower than planned is as safe as planned, and leaves the cars that fell behind speed to catch up with.
+void Conductor::keep_together(double time, std::span<const Car> cars) {
+  if (time < free_from_) return;
+  const double pace = pace_of(plan_, clock_, cars);
+  const RateChange possible = possible_change(scenario_, plan_, clock_, std::nullopt);
+  const double least = std::min(possible.least, -kAlways);
+  clock_.accelerate(std::clamp((pace - clock_.rate()) / kPaceResponse, least, possible.most), pace);
 }
 
 std::optional<std::string> Conductor::reason_to_stop(double time, std::span<const Car> cars) {
@@ -80,7 +118,8 @@ std::optional<std::string> Conductor::reason_to_stop(double time, std::span<cons
     }
     const geom::Vec2 reference = clock_.state_on(plan_.robots[k]).pose.position();
     const double off = geom::norm(cars[k].belief().pose.position() - reference);
-    if (off > kOffWay) return name(k) + " is " + centimetres(off) + " off its way";
+    if (off > std::max(kOffWay, kOffWayLong * scenario_.model_of(scenario_.robots[k]).length()))
+      return name(k) + " is " + centimetres(off) + " off its way";
   }
   return std::nullopt;
 }
@@ -126,6 +165,7 @@ void Conductor::weigh(double time, const std::vector<net::Target>& in_the_air) {
   plan_ = candidate.answer.plan;
   begin_ = candidate.begin;
   clock_ = PlanClock(time - begin_);
+  waited_ = 0.0;
   ++adopted_;
   news_.push_back("a new plan is followed: " + gain(now, then));
 }

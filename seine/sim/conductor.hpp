@@ -21,11 +21,11 @@ class Conductor {
 
   /// To be called every control period, before the cars are told what to do.
   void decide(double time, std::span<const Car> cars, const std::vector<net::Target>& in_the_air);
-  void advance(double duration) { clock_.advance(duration); }
+  void advance(double duration);
 
   const traj::TeamTrajectory& plan() const { return plan_; }
   const PlanClock& clock() const { return clock_; }
-  double end() const { return begin_ + plan_.makespan(); }  ///< s, of the plan
+  double end() const { return begin_ + plan_.makespan() + waited_; }  ///< s, of the plan
   bool stopping() const { return stopping_; }
   int adopted() const { return adopted_; }
   int asked() const { return asked_; }
@@ -40,6 +40,7 @@ class Conductor {
     bool late = false;
   };
 
+  void keep_together(double time, std::span<const Car> cars);
   std::optional<std::string> reason_to_stop(double time, std::span<const Car> cars);
   bool time_to_ask(double time, const std::vector<net::Target>& in_the_air) const;
   void ask(double time, const std::vector<net::Target>& in_the_air);
@@ -51,6 +52,8 @@ class Conductor {
   traj::TeamTrajectory plan_;
   double begin_ = 0.0;  // s, when the plan's clock was 0
   PlanClock clock_;
+  double waited_ = 0.0;     // s, for cars that fell behind
+  double free_from_ = 0.0;  // s, from when on nothing but the team itself hangs on the plan's clock
   bool stopping_ = false;
   std::optional<std::size_t> silent_;  // the car that does not answer
   std::optional<Candidate> candidate_;

@@ -6,12 +6,13 @@ namespace seine::sim {
 
 PlanClock PlanClock::ahead(double duration) const {
   PlanClock later = *this;
-  later.rate_ = std::clamp(rate_ + change_ * duration, 0.0, 1.0);
-  // The rate changes evenly until it is 0 or 1, then stays.
+  // The rate changes evenly until it is what is wanted, then stays.
+  const double asked = rate_ + change_ * duration;
+  later.rate_ =
+      change_ < 0.0 ? std::max(asked, std::min(rate_, wanted_)) : std::min(asked, std::max(rate_, wanted_));
   const double turning = change_ == 0.0 ? duration : (later.rate_ - rate_) / change_;
   later.time_ += 0.5 * (rate_ + later.rate_) * turning + later.rate_ * (duration - turning);
-  const bool at_end = (later.rate_ == 0.0 && change_ < 0.0) || (later.rate_ == 1.0 && change_ > 0.0);
-  if (at_end) later.change_ = 0.0;
+  if (later.rate_ != asked || later.rate_ == wanted_) later.change_ = 0.0;
   return later;
 }
 

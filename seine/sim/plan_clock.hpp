@@ -14,8 +14,10 @@ class PlanClock {
   double rate() const { return rate_; }  ///< 1: as planned, 0: standing
   bool stands() const { return rate_ == 0.0; }
 
-  /// Changes of the rate from now on, 1/s.
-  void accelerate(double change) { change_ = change; }
+  /// Changes of the rate from now on, 1/s, until it is 0 or 1.
+  void accelerate(double change) { accelerate(change, change < 0.0 ? 0.0 : 1.0); }
+  /// The same, until the rate is `wanted`.
+  void accelerate(double change, double wanted) { change_ = change, wanted_ = wanted; }
   void advance(double duration) { *this = ahead(duration); }
   /// The clock as it will be.
   PlanClock ahead(double duration) const;
@@ -23,7 +25,7 @@ class PlanClock {
   traj::State state_on(const traj::RobotTrajectory& way) const;
 
  private:
-  double time_ = 0.0, rate_ = 1.0, change_ = 0.0;
+  double time_ = 0.0, rate_ = 1.0, change_ = 0.0, wanted_ = 1.0;
 };
 
 }  // namespace seine::sim

@@ -10,7 +10,6 @@
 #include "seine/constraint/net_hold.hpp"
 #include "seine/constraint/net_opening.hpp"
 #include "seine/constraint/net_radius.hpp"
-#include "seine/constraint/net_sag.hpp"
 #include "seine/constraint/net_spread.hpp"
 #include "seine/constraint/net_stretch.hpp"
 #include "seine/math/hinge.hpp"
@@ -140,10 +139,7 @@ void NetTerms::look_at(Look& look, double time, std::span<const Vec2> ring) {
       highest = std::max(highest, low.height);
   const double free = task_.net.rim() - task_.net.clearance - highest;
   look.loaded = time >= task_.loaded_from;
-  if (look.loaded)
-    look.least_spread = spread_for(free) + task_.spread_slack;
-  else
-    look.empty_depth = free;
+  look.least_spread = spread_for(free) + task_.spread_slack;
   for (const CatchTask& c : task_.catches)
     if (time >= c.time && time <= c.time + c.hold) look.opening = std::max(look.opening, c.held_opening);
 }
@@ -212,14 +208,9 @@ double NetTerms::size_cost(const Look& look, Ring& ring, double knee) const {
   };
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = i + 1; j < n; ++j) {
-      const double rest = rest_[i * n + j];
       Vec2 g_i, g_j;
-      const double most = (1.0 - kTighten) * task_.net.stretch * rest;
+      const double most = (1.0 - kTighten) * task_.net.stretch * rest_[i * n + j];
       pay(constraint::net_stretch(ring.at[i], ring.at[j], most, g_i, g_j), i, j, g_i, g_j);
-      if (look.empty_depth <= 0.0) continue;
-      const double least = constraint::least_distance(rest, look.empty_depth);
-      if (least > 0.0)
-        pay(constraint::net_sag(ring.at[i], ring.at[j], least + slack_, g_i, g_j), i, j, g_i, g_j);
     }
   if (look.least_spread > 0.0) {
     const double spread = constraint::net_spread(ring.at, ring.scratch);

@@ -39,7 +39,6 @@ class NetTerms {
     std::vector<std::pair<const std::vector<geom::Vec2>*, double>> tall;  // core, clearance with its radius
     bool loaded = false;
     double least_spread = 0.0;
-    double empty_depth = 0.0;  // 0: nothing asked
     double opening = 0.0;
   };
   struct Catch {

@@ -165,7 +165,18 @@ void check_bounds(const Stand& stand, const geom::Box& bounds, double margin, Co
   }
 }
 
-void check_static(const Stand& stand, const StaticMap& map, double margin, Complaints& out) {
+// Whether a piece of the map is what lies outside its picture.
+bool beyond_picture(const geom::OccupancyGrid& grid, const Convex& piece) {
+  const Vec2 d = grid.origin.direction(), size{grid.width * grid.resolution, grid.height * grid.resolution};
+  return std::any_of(piece.core.begin(), piece.core.end(), [&](Vec2 p) {
+    const Vec2 from = p - grid.origin.position();
+    const double x = geom::dot(d, from), y = geom::cross(d, from);
+    return std::max({-x, -y, x - size.x, y - size.y}) > kTolerance;
+  });
+}
+
+void check_static(const Scenario& scenario, const Stand& stand, const StaticMap& map, double margin,
+                  Complaints& out) {
   struct Worst {
     double distance;
     int piece;
@@ -179,7 +190,11 @@ void check_static(const Stand& stand, const StaticMap& map, double margin, Compl
     if (!fresh && distance < entry->second.distance) entry->second = {distance, index};
   });
   for (const auto& [obstacle, found] : worst) {
+    const std::size_t before = out.size();
     complain_if_near(stand.who, map.describe(found.piece), found.distance, margin, out);
+    const Convex& shape = map.pieces()[static_cast<std::size_t>(found.piece)].shape;
+    if (obstacle < 0 && out.size() > before && beyond_picture(*scenario.map, shape))
+      out.back().text += " (if that is free, say 'outside: free' under 'world')";
   }
 }
 
@@ -316,7 +331,7 @@ Complaints examine(const Scenario& scenario, const StaticMap& map) {
     for (const Stand& stand : *stands) {
       const std::size_t before = out.size();
       check_bounds(stand, map.bounds(), least, out);
-      check_static(stand, map, least, out);
+      check_static(scenario, stand, map, least, out);
       if (start && !scenario.margins.leaving && stand_clear(stand, map))
         for (std::size_t i = before; i < out.size(); ++i)
           out[i].text += " (to let cars leave such places, give 'margins: {leaving: ...}' in m)";

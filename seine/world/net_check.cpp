@@ -12,6 +12,7 @@
 #include "seine/net/hanging.hpp"
 #include "seine/net/shape.hpp"
 #include "seine/world/check_parts.hpp"
+#include "seine/world/flight_path.hpp"
 
 namespace seine::world {
 namespace {
@@ -198,8 +199,7 @@ void check_stand(const Scenario& scenario, const StaticMap& map, const Stand& st
   const bool held = check_stretch(scenario, stand, out);
   if (!check_ring(scenario, stand, out) || !held) return;
   const net::Net& net = *scenario.net;
-  const double depth =
-      stand.loaded ? net::loaded_depth(net, stand.corners) : net::empty_depth(net, stand.corners);
+  const double depth = net::loaded_depth(net, stand.corners);  // no cloth hangs deeper without a load
   const Under under{scenario, stand, net.rim() - depth, out};
   if (under.bottom < net.clearance - kTolerance) {
     out.push_back(std::string(stand.loaded ? "the loaded net " : "the net ") + stand.when + " hangs " +
@@ -258,7 +258,9 @@ bool check_target_numbers(const net::Target& target, const std::string& name, Co
   return false;
 }
 
-void check_target(const net::Target& target, const std::string& name, double rim, Complaints& out) {
+void check_target(const Scenario& scenario, const net::Target& target, const std::string& name,
+                  Complaints& out) {
+  const double rim = scenario.net->rim();
   if (!check_target_numbers(target, name, out)) return;
   const auto crossing = net::Flight(target).crossing(rim);
   if (!crossing) {
@@ -269,7 +271,22 @@ void check_target(const net::Target& target, const std::string& name, double rim
   } else if (crossing->state.time < 0.0) {
     out.push_back(name + " falls through the rim of the net at t = " + number(crossing->state.time) +
                   " s, before the plan begins");
+  } else if (const auto hit = flight_obstruction(scenario, target, crossing->state.time)) {
+    out.push_back(name + " " + describe(scenario, *hit));
   }
+}
+
+void check_payload(const Scenario& scenario, Complaints& out) {
+  const net::Payload& payload = *scenario.payload;
+  if (!require(payload.radius > 0.0 && std::isfinite(payload.radius), "the radius of the payload",
+               payload.radius, "a positive number", out) ||
+      !require(payload.mass > 0.0 && std::isfinite(payload.mass), "the mass of the payload", payload.mass,
+               "a positive number", out))
+    return;
+  const double widest = net::inradius(scenario.net->rest);
+  if (payload.radius > widest)
+    out.push_back("the payload has a radius of " + metres(payload.radius) +
+                  ", wider than the net: spread flat it has room for " + metres(widest));
 }
 
 void check_delivery(const Scenario& scenario, const std::optional<Stand>& goals, Complaints& out) {
@@ -325,7 +342,8 @@ void check_net(const Scenario& scenario, const StaticMap& map, Complaints& out) 
   check_stand(scenario, map, stand_at_start(scenario), true, out);
   if (goals) check_stand(scenario, map, *goals, false, out);
   for (std::size_t i = 0; i < scenario.targets.size(); ++i)
-    check_target(scenario.targets[i], "target " + std::to_string(i + 1), scenario.net->rim(), out);
+    check_target(scenario, scenario.targets[i], "target " + std::to_string(i + 1), out);
+  if (scenario.payload) check_payload(scenario, out);
   if (scenario.delivery) check_delivery(scenario, goals, out);
 }
 

@@ -83,6 +83,9 @@ struct Scenario {
   geom::Vec2 origin;
   geom::Box bounds;  ///< footprints stay inside
   std::optional<geom::OccupancyGrid> map;
+  /// Whether ground beyond the map's picture is free. Otherwise it is what nobody has seen: an obstacle, like
+  /// the picture's own unknown cells.
+  bool outside_free = false;
   std::vector<Obstacle> obstacles;
   std::vector<vehicle::Model> models;  ///< at least one
   Margins margins;

@@ -102,15 +102,25 @@ void StaticMap::add_pieces(const Scenario& scenario) {
       add({std::move(part), 0.0});
     }
   }
+  add_map(scenario);
+}
+
+void StaticMap::add_map(const Scenario& scenario) {
+  outside_begin_ = pieces_.size();
   if (!scenario.map) return;
   if (!geom::is_complete(*scenario.map)) {
     throw InputError("the map has " + std::to_string(scenario.map->occupied.size()) + " cells, expected " +
                      std::to_string(scenario.map->width) + " x " + std::to_string(scenario.map->height) +
                      " of a positive, finite size");
   }
-  std::vector<geom::Convex> rectangles = geom::boundary_rectangles(*scenario.map);
-  pieces_.reserve(pieces_.size() + rectangles.size());
+  const geom::Outside outside = scenario.outside_free ? geom::Outside::free : geom::Outside::blocked;
+  std::vector<geom::Convex> rectangles = geom::boundary_rectangles(*scenario.map, outside);
+  pieces_.reserve(pieces_.size() + rectangles.size() + 4);
   for (geom::Convex& rectangle : rectangles) pieces_.push_back({std::move(rectangle), {}, -1});
+  outside_begin_ = pieces_.size();
+  if (scenario.outside_free) return;
+  for (geom::Convex& beyond : geom::surroundings(*scenario.map, bounds_))
+    pieces_.push_back({std::move(beyond), {}, -1});
 }
 
 void StaticMap::build_buckets() {
@@ -298,6 +308,7 @@ std::string StaticMap::describe(int piece) const {
   if (piece < 0) return "the bounds";
   const Piece& p = pieces_[static_cast<std::size_t>(piece)];
   if (p.obstacle >= 0) return names_[static_cast<std::size_t>(p.obstacle)];
+  if (static_cast<std::size_t>(piece) >= outside_begin_) return "the unknown ground outside the map";
   char text[80];
   const Vec2 at = origin_ + p.box.center();
   std::snprintf(text, sizeof text, "the map at (%.2f, %.2f)", at.x, at.y);

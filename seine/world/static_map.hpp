@@ -12,14 +12,15 @@
 namespace seine::world {
 
 /// Everything that stands still, as convex pieces in a bucket grid: polygons cut into convex parts, circles
-/// as rounded points, occupied map cells as rectangles. Immutable after construction; safe to query from many
+/// as rounded points, occupied map cells as rectangles, what lies outside the map's picture as up to four
+/// polygons (unless the scenario says that it is free). Immutable after construction; safe to query from many
 /// threads at once, and from within a query's own `visit`.
 class StaticMap {
  public:
   struct Piece {
     geom::Convex shape;
     geom::Box box;
-    int obstacle = -1;  ///< index into Scenario::obstacles, −1 for the occupancy grid
+    int obstacle = -1;  ///< index into Scenario::obstacles, −1 for the map and what lies outside it
   };
 
   /// Throws InputError when an obstacle's polygon is not simple.
@@ -49,7 +50,7 @@ class StaticMap {
   /// Distance only: true when the polygon keeps `clearance` (m) to every piece and to the bounds, to within a
   /// nanometre.
   bool clear(std::span<const geom::Vec2> polygon, double clearance) const;
-  /// "obstacle 3", the user's name of it, or "the map at (x, y)".
+  /// "obstacle 3", the user's name of it, "the map at (x, y)", or "the unknown ground outside the map".
   std::string describe(int piece) const;
 
  private:
@@ -73,6 +74,7 @@ class StaticMap {
   };
 
   void add_pieces(const Scenario& scenario);
+  void add_map(const Scenario& scenario);
   void build_buckets();
   int column_of(double x) const;
   int row_of(double y) const;
@@ -93,6 +95,7 @@ class StaticMap {
   geom::Box bounds_;
   geom::Vec2 origin_;  // Scenario::origin
   std::vector<Piece> pieces_;
+  std::size_t outside_begin_ = 0;   // from here on pieces lie outside the map's picture
   std::vector<std::string> names_;  // of obstacles
 
   // Buckets: CSR over columns·rows cells of side bucket_ from low_ on; pieces beyond the grid are filed in

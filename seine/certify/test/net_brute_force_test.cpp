@@ -29,13 +29,21 @@ Motion random_motion(Rng& rng) {
           .piece_length = rng.uniform(0.5, 1.5)};
 }
 
+/// The verdict without what these plans do on purpose: they brake harder than a payload may be braked.
+Certificate judged(const NetTeam& team) {
+  Certificate certificate = team.judge();
+  std::erase_if(certificate.violations, [](const Violation& v) { return v.kind == Kind::braking; });
+  certificate.holds = certificate.violations.empty();
+  return certificate;
+}
+
 /// Judges with a limit on either side of what brute force found.
 void expect_between(NetTeam& team, Kind kind, const std::function<void(double room)>& set) {
   set(kClean);
-  const Certificate clean = team.judge();
+  const Certificate clean = judged(team);
   EXPECT_TRUE(clean.holds) << summary(clean);
   set(-kBroken);
-  const Certificate broken = team.judge();
+  const Certificate broken = judged(team);
   EXPECT_TRUE(!broken.holds && breaks(broken, kind)) << summary(broken);
   for (const Violation& v : broken.violations) EXPECT_EQ(v.kind, kind) << summary(broken);
 }
@@ -171,11 +179,8 @@ TEST(NetAgainstBruteForce, Drag) {
     const double reserve =
         grid.least([&](const auto& at, double) { return net::holding_reserve(team.net(), at); }, 10);
     if (loaded && reserve < 0.0) continue;
-    const double lowest = grid.least(
-        [&](const auto& at, double) {
-          return 1.0 - (loaded ? net::loaded_depth(team.net(), at) : net::empty_depth(team.net(), at));
-        },
-        loaded ? 20 : 1);
+    const double lowest =
+        grid.least([&](const auto& at, double) { return 1.0 - net::loaded_depth(team.net(), at); }, 20);
     expect_between(team, Kind::net_drag, [&](double room) { team.net().clearance = lowest - room; });
     team.net().clearance = lowest - 0.1;
     EXPECT_NEAR(team.judge().net.ground.clearance, 0.1, kHeightResolution + 1e-6);
@@ -293,10 +298,12 @@ TEST(NetAgainstBruteForce, ObstaclesAtTheLimit) {
     const Vec2 stump = grid.at(0.0).front();
     tested = {.name = "", .shape = world::Circle{stump, 0.5}, .motion = {}};
     team.net().clearance = 0.05;
-    const double lowest = grid.least([&](const auto& at, double) {
-      if (geom::distance(at, std::vector<Vec2>{stump}) >= 0.5) return 10.0;
-      return 1.0 - net::empty_depth(team.net(), at);
-    });
+    const double lowest = grid.least(
+        [&](const auto& at, double) {
+          if (geom::distance(at, std::vector<Vec2>{stump}) >= 0.5) return 10.0;
+          return 1.0 - net::loaded_depth(team.net(), at);
+        },
+        10);
     if (lowest < 0.2) continue;
     expect_between(team, Kind::net_obstacle, [&](double room) { tested.height = lowest - 0.05 - room; });
   }

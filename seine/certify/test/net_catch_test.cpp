@@ -52,6 +52,69 @@ TEST(PlantedCatch, IsMeasuredInTheMovingNet) {
   EXPECT_NEAR(caught.speed, 6.0, 1e-2);
 }
 
+TEST(PlantedCatch, ItsFlightIsFree) {
+  // It comes along y from the side, over a wall beside the way of the net and past a gate that shuts.
+  NetTeam team = catching_team();
+  team.scenario.targets = {falling({1.0, 0.0}, kHalfWay, {kSpeed, 0.0, -6.0})};
+  net::Target& target = team.scenario.targets[0];
+  target.time = 0.2;
+  const double flies = kHalfWay - target.time;
+  target.velocity = {0.0, 5.0, -6.0 + 9.80665 * flies};
+  target.position = {1.0, -5.0 * flies, 1.0 - flies * target.velocity.z + 0.5 * 9.80665 * flies * flies};
+  const auto with = [&](double height, std::vector<world::Waypoint> motion) {
+    std::vector<Vec2> wall{{-2.0, -0.05}, {2.0, -0.05}, {2.0, 0.05}, {-2.0, 0.05}};
+    if (motion.empty())
+      for (Vec2& p : wall) p += {1.0, -3.0};
+    team.scenario.obstacles = {
+        {.name = "wall", .shape = wall, .height = height, .motion = std::move(motion)}};
+    return team.judge();
+  };
+  const auto without = [&] {
+    team.scenario.obstacles.clear();
+    return team.judge();
+  }();
+  // At y = −3.13 … −2.87 it is 0.2 to 0.25 s on its way.
+  const double low = target.position.z + 0.2 * target.velocity.z - 0.5 * 9.80665 * 0.04;
+  EXPECT_EQ(with(low - 0.4, {}).violations.size(), without.violations.size());
+  EXPECT_EQ(with(low + 0.2, {}).violations.size(), without.violations.size() + 1);
+  EXPECT_TRUE(breaks(with(low + 0.2, {}), Kind::target_catch));
+  // Somewhere else until the object has passed, or there in between only.
+  EXPECT_EQ(with(low + 0.2, {{0.5, {9.0, -3.0, 0.0}}, {0.6, {1.0, -3.0, 0.0}}}).violations.size(),
+            without.violations.size());
+  EXPECT_EQ(with(low + 0.2, {{0.3, {9.0, -3.0, 0.0}}, {0.4, {1.0, -3.0, 0.0}}, {0.5, {9.0, -3.0, 0.0}}})
+                .violations.size(),
+            without.violations.size() + 1);
+}
+
+TEST(PlantedCatch, WhatIsThrownFromBelowComesRoundTheNet) {
+  // Thrown up from the ground inside the ring, or outside it: it falls back into the middle in both cases.
+  for (const double away : {0.0, 4.0}) {
+    NetTeam team = parked_team(regular(4, kOpen * kRadius), regular(4, kRadius));
+    team.net().clearance = 0.05;
+    net::Target target;
+    target.position = {-away, 0.0, 0.3};
+    target.velocity = {0.0, 0.0, 6.0};
+    const double until = net::Flight(target).crossing(1.0)->state.time;
+    target.velocity.x = away / until;
+    team.scenario.targets = {target};
+    const Certificate certificate = team.judge();
+    const bool through = std::any_of(
+        certificate.violations.begin(), certificate.violations.end(),
+        [](const Violation& v) { return v.text.find("rises through the net") != std::string::npos; });
+    EXPECT_EQ(through, away == 0.0) << summary(certificate);
+  }
+}
+
+TEST(PlantedCatch, APayloadNeedsRoomInTheNet) {
+  NetTeam team = parked_team(regular(4, kOpen * kRadius), regular(4, kRadius));
+  team.net().clearance = 0.05;
+  const double widest = kRadius * std::sqrt(0.5);
+  for (const double beyond : {-1e-3, 1e-3, 49.0}) {
+    team.scenario.payload = net::Payload{widest + beyond, 0.25};
+    EXPECT_EQ(team.judge().holds, beyond < 0.0) << summary(team.judge());
+  }
+}
+
 TEST(PlantedCatch, MarginAtTheRim) {
   // Along y the net has no speed: a target that falls straight down meets the rim where it meets the net.
   const double corner = kOpen * kRadius, off = std::sqrt(2.0) * (net::kRimMargin + 0.08);
@@ -219,10 +282,11 @@ TEST(PlantedCatch, BrakesTooHardWithSomethingInTheNet) {
   // From rest it may start as hard as it can, before the catch; after both it is at rest.
   const Certificate late = catches_at(2.0);
   EXPECT_TRUE(late.holds) << summary(late);
-  // With a payload from the beginning nothing is caught.
+  // A payload lies in it from the beginning.
   team.scenario.targets.clear();
-  team.scenario.payload = net::Payload{};
   EXPECT_TRUE(team.judge().holds) << summary(team.judge());
+  team.scenario.payload = net::Payload{};
+  EXPECT_TRUE(breaks(team.judge(), Kind::braking, 2)) << summary(team.judge());
 }
 
 TEST(PlantedCatch, MayAccelerateHardUntilTheCatch) {

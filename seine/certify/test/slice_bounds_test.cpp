@@ -108,34 +108,21 @@ TEST(SliceBounds, AreTightOnShortSlices) {
 TEST(SliceBounds, HeightHoldsBetweenTheEnds) {
   Rng rng(53);
   for (int trial = 0; trial < 300; ++trial) {
-    const bool loaded = trial % 2 == 0;
     const double width = rng.uniform(0.05, 0.4);
     Swarm swarm(rng, static_cast<std::size_t>(3 + rng.below(2)), width, rng.uniform(0.0, 6.0));
     net::Net net;
     net.rest = regular(static_cast<int>(swarm.size()), rng.uniform(1.2, 2.0));
     net.attachments.assign(swarm.size(), {});
     Height height(net);
-    height.at(loaded, swarm.at(rng.uniform(0.0, width)));
-    const double least = height.least(swarm.slice(loaded));
+    height.at(swarm.at(rng.uniform(0.0, width)));
+    const double least = height.least(swarm.slice(trial % 2 == 0));
     double found = 1e9;
     for (int l = 0; l <= kLooks; ++l) {
       const auto at = swarm.at(width * l / kLooks);
-      found = std::min(found, 1.0 - (loaded ? net::loaded_depth(net, at) : net::empty_depth(net, at)));
+      found = std::min(found, 1.0 - net::loaded_depth(net, at));
     }
     EXPECT_LE(least, found + 1e-9);
   }
-}
-
-TEST(SliceBounds, EmptySagIsDeepestInTheMiddleOfItsRange) {
-  // Two attachments pass from 0.4 ℓ to 0.6 ℓ at an even speed.
-  net::Net net;
-  net.rest = {{-1.0, 0.0}, {1.0, 0.0}, {0.0, 0.1}};
-  net.attachments.assign(3, {});
-  Height height(net);
-  const std::vector<Vec2> from{{-0.4, 0.0}, {0.4, 0.0}, {0.0, 0.1}}, to{{-0.6, 0.0}, {0.6, 0.0}, {0.0, 0.1}};
-  const std::vector<double> bends(3, 0.0);
-  const Beat beat{.t0 = 0.0, .t1 = 1.0};
-  EXPECT_NEAR(height.least({&beat, bends, 0.0, 1.0, from, to}), 1.0 - std::sqrt(0.375) * 1.0, 1e-12);
 }
 
 TEST(Chart, BoundsTheAttachmentFarOffTheCar) {

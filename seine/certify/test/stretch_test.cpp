@@ -24,14 +24,14 @@ TEST(Stretch, BendsBoundSecondDerivatives) {
     Quintic x = random_quintic(rng, 0.3), y = random_quintic(rng, 0.3), progress = random_quintic(rng, 0.15);
     x[1] += 2.0;
     progress[0] = rng.uniform(0.0, 1.0);
-    const Stretch stretch{.x = &x, .y = &y, .progress = &progress, .h = rng.uniform(0.3, 2.0)};
+    const Stretch stretch{.drive = {.x = &x, .y = &y, .progress = &progress, .h = rng.uniform(0.3, 2.0)}};
     const double width = rng.uniform(0.01, 0.2), w0 = rng.uniform(0.0, 1.0 - width), w1 = w0 + width;
     const Vec2 corner{rng.uniform(-1.0, 1.0), rng.uniform(-1.0, 1.0)};
     const Bends bends = stretch.bends(w0, w1, kWheelbase, geom::norm(corner));
     if (!(bends.least_length > 0.3)) continue;
     ++checked;
     for (int i = 0; i < 30; ++i) {
-      const double step = 0.02 * width, w = rng.uniform(w0 + step, w1 - step), dt = step * stretch.h;
+      const double step = 0.02 * width, w = rng.uniform(w0 + step, w1 - step), dt = step * stretch.drive.h;
       const Sample a = stretch.sample(w - step, kWheelbase), b = stretch.sample(w, kWheelbase),
                    c = stretch.sample(w + step, kWheelbase);
       for (std::size_t q = 0; q < kQuantities; ++q) {
@@ -56,7 +56,7 @@ TEST(Stretch, CurvatureBendsByTheCurveParameter) {
   for (int trial = 0; trial < 200; ++trial) {
     Quintic x = random_quintic(rng, 0.3), y = random_quintic(rng, 0.3);
     x[1] += 2.0;
-    const Stretch stretch{.x = &x, .y = &y, .progress = &identity};
+    const Stretch stretch{.drive = {.x = &x, .y = &y, .progress = &identity}};
     const double w0 = rng.uniform(0.0, 0.9), w1 = w0 + 0.1, step = 1e-3;
     const Bends bends = stretch.bends(w0, w1, kWheelbase, 1.0);
     if (!(bends.least_length > 0.3)) continue;
@@ -73,11 +73,7 @@ TEST(Stretch, SamplesAgreeWithTheTrajectory) {
   const auto way =
       random_way(rng, {{1.0, 2.0, 0.5}, 0.3}, {.segments = 1, .curve_pieces = 1, .progress_pieces = 1});
   const traj::Segment& segment = way.segments.front();
-  const Stretch stretch{.x = &segment.curve[0][0],
-                        .y = &segment.curve[0][1],
-                        .progress = &segment.progress[0],
-                        .h = segment.piece_duration,
-                        .gear = static_cast<double>(segment.gear)};
+  const Stretch stretch{.drive = traj::drive_on(segment, 0, 0)};
   for (double w = 0.0; w <= 1.0; w += 0.05) {
     const Sample sample = stretch.sample(w, kWheelbase);
     const traj::State state = traj::evaluate(segment, w * segment.piece_duration);

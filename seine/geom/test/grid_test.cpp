@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "seine/base/rng.hpp"
@@ -12,11 +15,12 @@ namespace {
 
 constexpr std::uint64_t kSeed = 5;
 
-bool is_boundary(const OccupancyGrid& grid, int column, int row) {
+bool is_boundary(const OccupancyGrid& grid, int column, int row, Outside outside) {
   if (!grid.blocked(column, row)) return false;
   for (int r = row - 1; r <= row + 1; ++r) {
     for (int c = column - 1; c <= column + 1; ++c) {
-      if (!grid.blocked(c, r)) return true;
+      const bool beyond = r < 0 || c < 0 || r >= grid.height || c >= grid.width;
+      if (beyond ? outside == Outside::free : !grid.blocked(c, r)) return true;
     }
   }
   return false;
@@ -47,7 +51,8 @@ TEST(Grid, RectanglesCoverExactlyTheBoundaryCells) {
   Rng rng(kSeed);
   for (int i = 0; i < 200; ++i) {
     const OccupancyGrid grid = random_grid(rng);
-    const std::vector<Convex> rectangles = boundary_rectangles(grid);
+    const Outside outside = rng.below(2) == 0 ? Outside::free : Outside::blocked;
+    const std::vector<Convex> rectangles = boundary_rectangles(grid, outside);
     for (const Convex& rectangle : rectangles) EXPECT_TRUE(is_convex(rectangle.core));
     for (int row = 0; row < grid.height; ++row) {
       for (int column = 0; column < grid.width; ++column) {
@@ -56,10 +61,44 @@ TEST(Grid, RectanglesCoverExactlyTheBoundaryCells) {
           const Vec2 p = grid.origin * (grid.resolution * (Vec2{double(column), double(row)} + at));
           bool covered = false;
           for (const Convex& rectangle : rectangles) covered = covered || contains(rectangle.core, p);
-          ASSERT_EQ(covered, is_boundary(grid, column, row)) << "seed " << kSeed << " case " << i;
+          ASSERT_EQ(covered, is_boundary(grid, column, row, outside)) << "seed " << kSeed << " case " << i;
         }
       }
     }
+  }
+}
+
+TEST(Grid, SurroundingsAreWhatABoxHoldsBeyondIt) {
+  Rng rng(kSeed);
+  for (int i = 0; i < 300; ++i) {
+    OccupancyGrid grid = random_grid(rng);
+    if (rng.below(4) == 0) grid.origin.heading = 0.5 * std::numbers::pi * rng.below(4);
+    Box box = grid.box();
+    if (rng.below(2) == 0) box = box.inflated(rng.uniform(-0.3, 2.0));
+    if (rng.below(3) == 0) box.high += {rng.uniform(-0.5, 1.0), rng.uniform(-0.5, 1.0)};
+    if (box.empty()) continue;
+    const std::vector<Convex> pieces = surroundings(grid, box);
+    for (const Convex& piece : pieces) EXPECT_TRUE(is_convex(piece.core));
+    for (int k = 0; k < 200; ++k) {
+      const Vec2 p{rng.uniform(box.low.x, box.high.x), rng.uniform(box.low.y, box.high.y)};
+      const Vec2 d = p - grid.origin.position(), along = grid.origin.direction();
+      const double x = dot(along, d), y = cross(along, d);
+      const double outside =
+          std::max({-x, -y, x - grid.width * grid.resolution, y - grid.height * grid.resolution});
+      if (std::abs(outside) < 1e-5) continue;
+      bool covered = false;
+      for (const Convex& piece : pieces) covered = covered || contains(piece.core, p);
+      ASSERT_EQ(covered, outside > 0.0) << "seed " << kSeed << " case " << i;
+    }
+  }
+}
+
+TEST(Grid, NothingSurroundsAGridThatFillsItsBox) {
+  Rng rng(kSeed);
+  for (int i = 0; i < 200; ++i) {
+    OccupancyGrid grid = random_grid(rng);
+    grid.origin = {rng.uniform(-1e6, 1e6), rng.uniform(-1e6, 1e6), 0.5 * std::numbers::pi * rng.below(4)};
+    EXPECT_TRUE(surroundings(grid, grid.box()).empty());
   }
 }
 

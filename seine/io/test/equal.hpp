@@ -49,6 +49,7 @@ inline void expect_equal(const world::Scenario& a, const world::Scenario& b) {
   EXPECT_EQ(a.bounds.low, b.bounds.low);
   EXPECT_EQ(a.bounds.high, b.bounds.high);
   ASSERT_EQ(a.map.has_value(), b.map.has_value());
+  EXPECT_EQ(a.outside_free, b.outside_free);
   if (a.map) {
     EXPECT_EQ(a.map->occupied, b.map->occupied);
     EXPECT_EQ(a.map->origin, b.map->origin);

@@ -103,6 +103,28 @@ TEST(PlanFile, ACarThatStandsHasOnePose) {
   EXPECT_EQ(robot["states"].size(), 1U);
 }
 
+TEST(PlanFile, SaysWhatItWasMadeFor) {
+  world::Scenario scenario = two_cars();
+  const std::string text = plan_text(scenario, result_for_two());
+  PlanFile read = parse_plan(text, "plan.json");
+  EXPECT_EQ(changed_since(scenario, read), std::vector<std::string>{});
+  scenario.models[0].wheelbase *= 2.0;
+  scenario.margins.robot = 0.3;
+  EXPECT_EQ(changed_since(scenario, read), (std::vector<std::string>{"models", "margins"}));
+  const json said = json::parse(report_json(scenario, certify::Certificate{}, changed_since(scenario, read)));
+  EXPECT_EQ(said["made_for_this"], false);
+  EXPECT_EQ(said["changed_since"], (json{"models", "margins"}));
+
+  json plan = json::parse(text);
+  plan.erase("made_for");
+  read = parse_plan(plan.dump(), "plan.json");
+  EXPECT_EQ(changed_since(scenario, read), std::nullopt);
+  EXPECT_TRUE(json::parse(report_json(scenario, certify::Certificate{}))["made_for_this"].is_null());
+  plan["made_for"] = {{"robots", "12"}};
+  EXPECT_EQ(complaint_about(plan.dump()),
+            "plan.json: made_for.robots is no fingerprint, expected 16 hexadecimal digits");
+}
+
 TEST(PlanFile, StatesAreSampledAtTwentyHertzUpToTheArrival) {
   const planner::PlanResult result = result_for_two();
   const json plan = json::parse(plan_text(two_cars(), result));

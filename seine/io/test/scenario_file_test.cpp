@@ -123,9 +123,26 @@ TEST(ScenarioFile, SavesAMapBesideTheScenario) {
   fs::create_directories(folder);
   Scenario s = parse(kFull);
   s.map = geom::OccupancyGrid{3, 2, 0.1, {1.5, -0.2, 3.14}, {0, 1, 0, 1, 1, 0}};
+  s.outside_free = true;
   save_scenario(s, folder / "a.yaml");
   expect_equal(s, load_scenario(folder / "a.yaml"));
   fs::remove_all(folder);
+}
+
+TEST(ScenarioFile, SaysWhatLiesOutsideTheMap) {
+  const auto with = [](const std::string& world) {
+    return "seine: 1\nworld: {" + world +
+           "}\nrobots: [{start: {x: 0, y: 0, heading: 0}, goal: {x: 1, y: 0, heading: 0}}]\n";
+  };
+  const auto read = [&](const std::string& outside) {
+    return parse_scenario(with("map: skirk.yaml" + outside), "a.yaml", kData / "maps/ros").outside_free;
+  };
+  EXPECT_FALSE(read(""));
+  EXPECT_FALSE(read(", outside: unknown"));
+  EXPECT_TRUE(read(", outside: free"));
+  EXPECT_THROW(read(", outside: open"), InputError);
+  EXPECT_EQ(complaint_about(with("bounds: [0, 0, 1, 1], outside: free")),
+            "team.yaml:2: 'outside' of 'world' says what lies outside the map, but there is no 'map'");
 }
 
 TEST(ScenarioFile, BoundsComeFromTheMap) {

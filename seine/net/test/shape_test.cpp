@@ -30,30 +30,56 @@ TEST(Opening, OfAScaledCopyIsItsScale) {
   }
 }
 
-double parabola_length(double distance, double depth) {
-  double length = 0.0;
-  constexpr int kSteps = 4000;
+// The length of y = a cosh(x / a) over [−d/2, d/2], piece by piece, for the a that gives this sag (bisected).
+double catenary_length(double distance, double sag) {
+  double low = 1e-6, high = 1e9;
+  for (int i = 0; i < 400; ++i) {
+    const double a = std::sqrt(low * high), x = 0.5 * distance / a;
+    (x > 700.0 || 2.0 * a * std::pow(std::sinh(0.5 * x), 2.0) > sag ? low : high) = a;
+  }
+  constexpr int kSteps = 20000;
   const auto height = [&](int i) {
-    const double x = static_cast<double>(i) / kSteps;
-    return 4.0 * depth * x * (1.0 - x);
+    const double x = distance * (static_cast<double>(i) / kSteps - 0.5);
+    return 2.0 * low * std::pow(std::sinh(0.5 * x / low), 2.0);
   };
+  double length = 0.0;
   for (int i = 0; i < kSteps; ++i) length += std::hypot(distance / kSteps, height(i + 1) - height(i));
   return length;
 }
 
-TEST(Sag, IsTheParabolaOfThatLengthToLeadingOrder) {
-  for (const double ratio : {0.80, 0.86, 0.90, 0.95, 0.99, 0.999}) {
-    const double rest = 2.0;
-    const double depth = sag(ratio * rest, rest);
-    // The next term of the parabola's length is −32/5 (s/d)⁴ d.
-    const double e = depth / (ratio * rest);
-    const double length = parabola_length(ratio * rest, depth);
-    EXPECT_LE(length, rest);
-    EXPECT_NEAR(length, rest - 6.4 * e * e * e * e * ratio * rest, 80.0 * std::pow(e, 6.0));
-  }
+TEST(Sag, IsThatOfACatenary) {
+  for (const double rest : {0.01, 2.0, 300.0})
+    for (const double ratio : {0.02, 0.1, 0.15, 0.3, 0.5, 0.80, 0.86, 0.90, 0.95, 0.99, 0.999})
+      EXPECT_NEAR(catenary_length(ratio * rest, sag(ratio * rest, rest)), rest, 2e-5 * rest) << ratio;
+  // Textbook: a rope twice as long as its span hangs 0.796 spans deep.
+  EXPECT_NEAR(sag(1.0, 2.0), 0.796, 1e-3);
   EXPECT_EQ(sag(2.0, 2.0), 0.0);
   EXPECT_EQ(sag(2.1, 2.0), 0.0);
-  EXPECT_EQ(sag(0.0, 2.0), 0.0);
+  EXPECT_EQ(sag(0.0, 2.0), 1.0);
+  double before = 1.0;
+  for (double d = 1e-9; d < 2.0; d = 1.1 * d + 1e-9) {  // deeper the nearer
+    EXPECT_LE(sag(d, 2.0), before);
+    EXPECT_LT(sag(d, 2.0), std::sqrt(1.0 - 0.25 * d * d)) << "deeper than a load";
+    before = sag(d, 2.0);
+  }
+}
+
+TEST(Inradius, NoPointIsFurtherInsideAndOneIsAsFar) {
+  Rng rng(kSeed);
+  EXPECT_NEAR(inradius(regular_polygon(4, 1.0)), std::sqrt(0.5), 1e-12);
+  for (int round = 0; round < 50; ++round) {
+    const std::vector<Vec2> polygon = random_convex(rng, 3 + static_cast<std::size_t>(rng.below(6)));
+    const double found = inradius(polygon);
+    double best = -1.0;
+    Vec2 at;
+    for (int i = 0; i < 3000; ++i) {  // a search that narrows down
+      const double reach = std::pow(0.997, i);
+      const Vec2 p = at + Vec2{rng.uniform(-reach, reach), rng.uniform(-reach, reach)};
+      if (const double inside = margin_inside(polygon, p); inside > best) best = inside, at = p;
+    }
+    EXPECT_LE(best, found + 1e-9);
+    EXPECT_GT(best, found - 1e-2);
+  }
 }
 
 TEST(EmptyDepth, IsTheDeepestPair) {
@@ -66,7 +92,7 @@ TEST(EmptyDepth, IsTheDeepestPair) {
     for (std::size_t i = 0; i < corners; ++i)
       for (std::size_t j = 0; j < i; ++j) {
         const double d = geom::norm(hold[i] - hold[j]);
-        deepest = std::max(deepest, std::sqrt(0.375 * d * (geom::norm(net.rest[i] - net.rest[j]) - d)));
+        deepest = std::max(deepest, sag(d, geom::norm(net.rest[i] - net.rest[j])));
       }
     EXPECT_NEAR(empty_depth(net, hold), deepest, 1e-12) << "round " << round << ", seed " << kSeed;
   }
@@ -75,7 +101,7 @@ TEST(EmptyDepth, IsTheDeepestPair) {
 TEST(EmptyDepth, IsLessThanThatOfALoadInRegularNets) {
   for (std::size_t corners = 3; corners <= 8; ++corners) {
     const Net net = net_of(regular_polygon(corners, 1.3));
-    for (double scale = 0.7; scale < 1.0; scale += 0.01) {
+    for (double scale = 0.02; scale < 1.0; scale += 0.01) {
       const std::vector<Vec2> hold = regular_polygon(corners, 1.3 * scale);
       EXPECT_LT(empty_depth(net, hold), loaded_depth(net, hold));
     }

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "seine/base/error.hpp"
+#include "seine/net/shape.hpp"
 #include "seine/world/check.hpp"
 
 namespace seine::world {
@@ -99,7 +100,7 @@ TEST(CheckNet, AStartThatTheNetForbids) {
 }
 
 TEST(CheckNet, ANetThatDrags) {
-  // Scale 0.86 leaves 0.28 m under a load; the empty net hangs higher.
+  // Scale 0.86 leaves 0.28 m; the empty net is taken to hang as deep as under a load.
   expect_one(
       [](Scenario& s) {
         for (auto& a : s.net->attachments) a.height = 0.75;
@@ -111,7 +112,7 @@ TEST(CheckNet, ANetThatDrags) {
       [](Scenario& s) {
         for (auto& a : s.net->attachments) a.height = 0.5;
       },
-      {"the net at the start hangs 0.60", "nearer to the ground"});
+      {"the net at the start hangs 0.721", "nearer to the ground"});
 }
 
 TEST(CheckNet, WhatIsUnderTheNet) {
@@ -124,13 +125,15 @@ TEST(CheckNet, WhatIsUnderTheNet) {
   expect_one(block(std::numeric_limits<double>::infinity()),
              {"block stands inside the net at the start", "infinitely tall", "rim is at 1 m"});
   expect_one(block(1.0), {"block stands inside the net at the start: it is 1 m tall"});
-  expect_one(block(0.5), {"hangs down to 0.39", "over block, which is 0.5 m tall", "clearance of 0.05 m"});
+  expect_one(block(0.5), {"hangs down to 0.278", "over block, which is 0.5 m tall", "clearance of 0.05 m"});
   Scenario low = good();
-  block(0.3)(low);
+  block(0.2)(low);
   EXPECT_EQ(check(low, StaticMap(low)), std::vector<std::string>{});
   low.targets.clear();
-  low.payload = net::Payload{};  // 0.28 m
-  ASSERT_EQ(check(low, StaticMap(low)).size(), 1U);
+  low.payload = net::Payload{};
+  EXPECT_EQ(check(low, StaticMap(low)), std::vector<std::string>{});
+  low.obstacles.back().height = 0.25;
+  EXPECT_EQ(check(low, StaticMap(low)).size(), 1U);
   expect_one(
       [](Scenario& s) {
         s.obstacles.push_back(
@@ -156,6 +159,36 @@ TEST(CheckNet, TargetsThatCannotBeCaught) {
   thrown.targets[0].position.z = 0.4;
   thrown.targets[0].velocity.z = 5.0;
   EXPECT_EQ(check(thrown, StaticMap(thrown)), std::vector<std::string>{});
+}
+
+TEST(CheckNet, APayloadThatIsWiderThanTheNet) {
+  const auto carry = [](double radius, double mass) {
+    return [radius, mass](Scenario& s) {
+      s.targets.clear();
+      s.payload = net::Payload{radius, mass};
+    };
+  };
+  expect_one(carry(50.0, 0.25), {"payload has a radius of 50 m, wider than the net"});
+  expect_one(carry(0.1, -1.0), {"mass of the payload is -1"});
+  Scenario s = good();
+  const double widest = net::inradius(s.net->rest);
+  carry(widest - 1e-6, 0.25)(s);
+  EXPECT_EQ(check(s, StaticMap(s)), std::vector<std::string>{});
+  expect_one(carry(widest + 1e-6, 0.25), {"wider than the net"});
+}
+
+TEST(CheckNet, ATargetThatFliesIntoSomething) {
+  const auto with_wall = [](double height, double x) {
+    return [height, x](Scenario& s) {
+      s.targets[0].velocity = {-2.0, 0.0, 1.0};  // passes x = 1.2 at t = 0.4 s, 2.6 m above the ground
+      s.obstacles.push_back({.name = "wall", .shape = square(x, 2.0, 0.4), .height = height, .motion = {}});
+      s.obstacles.back().shape = std::vector<Vec2>{{x, -0.2}, {x + 0.1, -0.2}, {x + 0.1, 0.2}, {x, 0.2}};
+    };
+  };
+  expect_one(with_wall(3.0, 1.6), {"target 1 flies into wall at t = 0.1", "it is 3 m tall"});
+  Scenario s = good();
+  with_wall(2.0, 1.6)(s);
+  EXPECT_EQ(check(s, StaticMap(s)), std::vector<std::string>{});
 }
 
 TEST(CheckNet, ADeliveryThatContradictsTheRest) {
