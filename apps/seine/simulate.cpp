@@ -147,7 +147,8 @@ int run(const Arguments& arguments, bool json) {
       tell(arguments.plan.empty() ? summary(scenario, plan) : summary(scenario, plan.certificate),
            arguments.log);
     }
-    return !arguments.plan.empty() && plan.certificate.verdict() == certify::Verdict::undecided ? kUndecided : kNo;
+    return !arguments.plan.empty() && plan.certificate.verdict() == certify::Verdict::undecided ? kUndecided
+                                                                                                : kNo;
   }
   const sim::SimulationResult driven = drive_plan(arguments, scenario, plan.plan, log.recorder(), line);
   line.clear();

@@ -115,8 +115,8 @@ std::string summary(const world::Scenario& scenario, const certify::Certificate&
   }
   constexpr std::size_t kShown = 10;
   // Nothing broken was found, but that nothing is broken was not proved either.
-  std::string text =
-      (certificate.verdict() == certify::Verdict::undecided ? "UNDECIDED  " : "REFUTED  ") + scenario.name + ", " + team(scenario) + "\n";
+  std::string text = (certificate.verdict() == certify::Verdict::undecided ? "UNDECIDED  " : "REFUTED  ") +
+                     scenario.name + ", " + team(scenario) + "\n";
   for (std::size_t i = 0; i < certificate.violations.size() && i < kShown; ++i) {
     text += "  " + certificate.violations[i].text + "\n";
   }

@@ -178,9 +178,12 @@ class Proof {
 
 const char* name_of(Verdict verdict) {
   switch (verdict) {
-    case Verdict::holds: return "certified";
-    case Verdict::refuted: return "refuted";
-    case Verdict::undecided: return "undecided";
+    case Verdict::holds:
+      return "certified";
+    case Verdict::refuted:
+      return "refuted";
+    case Verdict::undecided:
+      return "undecided";
   }
   return "";
 }

@@ -110,8 +110,8 @@ void StaticMap::add_map(const Scenario& scenario) {
   if (!scenario.map) return;
   if (!geom::is_complete(*scenario.map)) {
     throw InputError("the map has " + std::to_string(scenario.map->occupied.size()) + " cells, expected " +
-                      std::to_string(scenario.map->width) + " x " + std::to_string(scenario.map->height) +
-                      " of a positive, finite size");
+                     std::to_string(scenario.map->width) + " x " + std::to_string(scenario.map->height) +
+                     " of a positive, finite size");
   }
   const geom::Outside outside = scenario.outside_free ? geom::Outside::free : geom::Outside::blocked;
   std::vector<geom::Convex> rectangles = geom::boundary_rectangles(*scenario.map, outside);

@@ -53,7 +53,10 @@ TEST(MapPlans, DriveThroughNothing) {
     const std::optional<world::Scenario> scenario = random_task(rng);
     if (!scenario) continue;
     ++asked;
-    const PlanResult result = plan(*scenario, {.threads = 1, .deadline = Deadline(0.5)});
+    Options options;
+    options.threads = 1;
+    options.deadline_s = 0.5;
+    const PlanResult result = plan(*scenario, options);
     if (!result.certified) continue;
     ++planned;
     const traj::RobotTrajectory& way = result.plan.robots[0];
