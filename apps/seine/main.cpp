@@ -91,6 +91,8 @@ int answered(CLI::App& program, const CLI::Success& answer) {
 int run(const Invocation& invocation) {
   try {
     return invocation.run();
+  } catch (const seine::app::StdoutIsRead& error) {
+    return fail({}, error.what(), seine::app::kWrong);
   } catch (const seine::InputError& error) {
     return fail(invocation, error.what(), seine::app::kWrong);
   } catch (const std::bad_alloc&) {

@@ -48,7 +48,7 @@ void tell(std::string_view text, const std::string& output) {
 void expect_writable(const std::string& path, const io::Reading& reading) {
   for (const io::Reading::File& file : reading.files)
     if (is_where_stdout_goes(file.path))
-      throw InputError(file.path.string() + ": is read and is where stdout goes");
+      throw StdoutIsRead(file.path.string() + ": is read and is where stdout goes");
   if (path.empty() || is_stdout(path)) return;
   std::error_code error;
   const fs::path folder = folder_of(path);

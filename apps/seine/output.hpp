@@ -3,9 +3,16 @@
 #include <string>
 #include <string_view>
 
+#include "seine/base/error.hpp"
 #include "seine/io/reading.hpp"
 
 namespace seine::app {
+
+/// What goes to stdout would overwrite a file that was read: not even the error may be printed there.
+class StdoutIsRead : public InputError {
+ public:
+  using InputError::InputError;
+};
 
 /// Whether the name stands for the standard output: "-", or what the system calls it.
 bool is_stdout(const std::string& path);

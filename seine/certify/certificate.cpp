@@ -197,7 +197,7 @@ Verdict Certificate::verdict() const {
 
 Certificate certify(const world::Scenario& scenario, const world::StaticMap& map,
                     const traj::TeamTrajectory& plan, const Options& options) {
-  world::expect_numbers(scenario);
+  world::expect_judgeable(scenario);
   const Stopwatch watch;
   Certificate certificate;
   Context context{scenario, map, options};

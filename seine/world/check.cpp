@@ -51,7 +51,7 @@ bool check_model(const vehicle::Model& model, Complaints& out) {
   };
   bool fine = check_footprint(model, out);
   fine &= positive(model.wheelbase, "the wheelbase");
-  fine &= positive(limits.speed, "the speed limit");
+  fine &= require_limit(limits.speed > 0.0, "the speed limit" + of, limits.speed, "a positive number", out);
   fine &= require(limits.reverse_speed >= 0.0 && std::isfinite(limits.reverse_speed),
                   "the reverse speed limit" + of, limits.reverse_speed, "zero or more", out);
   fine &= positive(limits.acceleration, "the acceleration limit");
@@ -72,7 +72,7 @@ void check_world(const Scenario& scenario, Complaints& out) {
        {std::pair{"the margin between robots", scenario.margins.robot},
         std::pair{"the margin to obstacles", scenario.margins.obstacle},
         std::pair{"the margin while leaving", scenario.margins.leaving.value_or(0.0)}}) {
-    require(margin >= 0.0 && std::isfinite(margin), what, margin, "zero or more", out);
+    require_limit(margin >= 0.0, what, margin, "zero or more", out);
   }
 }
 
@@ -370,6 +370,12 @@ Complaints check_numbers(const Scenario& scenario) {
 void expect_numbers(const Scenario& scenario) {
   if (Complaints complaints = check_numbers(scenario); !complaints.empty())
     throw Unsound(scenario.name, std::move(complaints));
+}
+
+void expect_judgeable(const Scenario& scenario) {
+  Complaints complaints = check_numbers(scenario);
+  std::erase_if(complaints, [](const Complaint& complaint) { return complaint.judged; });
+  if (!complaints.empty()) throw Unsound(scenario.name, std::move(complaints));
 }
 
 Unsound::Unsound(const std::string& scenario, Complaints complaints)

@@ -17,6 +17,7 @@ struct Complaint {
   int robot = -1;           ///< whose place it is about, where it is about one
   bool goal = false;        ///< its goal, or its start
   bool impossible = false;  ///< nothing is wrong in itself, but the task has no answer
+  bool judged = false;      ///< no plan can be asked for with such a limit, but one can be judged by it
 
   Complaint(std::string sentence) : text(std::move(sentence)) {}  // NOLINT: a sentence is a complaint
   Complaint(const char* sentence) : text(sentence) {}             // NOLINT
@@ -52,5 +53,9 @@ std::string expect_sound(const Scenario& scenario, const StaticMap& map);
 Complaints check_numbers(const Scenario& scenario);
 /// Throws Unsound when check_numbers has any complaint.
 void expect_numbers(const Scenario& scenario);
+/// The same, but for limits by which a plan can still be judged (`Complaint::judged`): finite margins,
+/// clearances, speed and stretch limits beyond what makes sense ask for nothing or for too much, and that is
+/// an answer.
+void expect_judgeable(const Scenario& scenario);
 
 }  // namespace seine::world

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdio>
 #include <string>
@@ -36,6 +37,14 @@ inline std::string name_of(const Obstacle& obstacle, std::size_t index) {
 inline bool require(bool fine, const std::string& what, double value, const char* expected, Complaints& out) {
   if (!fine) out.push_back(what + " is " + number(value) + ", expected " + expected);
   return fine;
+}
+
+/// The same for a limit of which any finite value has a meaning for a plan that is judged.
+inline bool require_limit(bool fine, const std::string& what, double value, const char* expected,
+                          Complaints& out) {
+  if (require(fine && std::isfinite(value), what, value, expected, out)) return true;
+  out.back().judged = std::isfinite(value);
+  return false;
 }
 
 /// A moving obstacle's pose at t = 0, the start of the common clock.

@@ -40,12 +40,11 @@ bool check_rest(const net::Net& net, Complaints& out) {
 }
 
 bool check_numbers(const net::Net& net, Complaints& out) {
-  bool fine = require(net.stretch > 0.0 && net.stretch < 1.0, "the net's stretch limit", net.stretch,
-                      "a number between 0 and 1", out);
+  bool fine = require_limit(net.stretch > 0.0 && net.stretch < 1.0, "the net's stretch limit", net.stretch,
+                            "a number between 0 and 1", out);
   fine &= require(net.rebound > 0.0 && net.rebound < 1.0, "the net's rebound", net.rebound,
                   "a number between 0 and 1", out);
-  fine &= require(net.clearance >= 0.0 && std::isfinite(net.clearance), "the net's clearance", net.clearance,
-                  "zero or more", out);
+  fine &= require_limit(net.clearance >= 0.0, "the net's clearance", net.clearance, "zero or more", out);
   fine &= require(net.rim() > 0.0 && std::isfinite(net.rim()), "the height of the net's rim", net.rim(),
                   "a positive number", out);
   for (const net::Attachment& a : net.attachments) {

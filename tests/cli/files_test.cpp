@@ -39,7 +39,8 @@ class Sacred : public testing::Test {
     fs::create_hard_link(scratch.folder() / "p.json", scratch.folder() / "p-hard.csv");
     fs::create_hard_link(scratch.folder() / "task.yaml", scratch.folder() / "task-hard.csv");
     for (const auto& entry : fs::directory_iterator(scratch.folder()))
-      before.insert({entry.path().filename().string(), scratch.read(entry.path().filename().string())});
+      if (const std::string name = entry.path().filename().string(); !name.starts_with("."))
+        before.insert({name, scratch.read(name)});
   }
   Scratch scratch;
   std::set<std::pair<std::string, std::string>> before;

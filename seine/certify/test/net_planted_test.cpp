@@ -1,6 +1,7 @@
 // Planted faults of a net: short ones, late ones, and shapes one forgets to look at.
 #include <gtest/gtest.h>
 
+#include "seine/base/error.hpp"
 #include "seine/certify/test/brute_force.hpp"
 #include "seine/certify/test/net_plans.hpp"
 
@@ -303,9 +304,9 @@ TEST(PlantedNet, IsNotDelivered) {
 TEST(PlantedNet, QuestionsThatMakeNoSense) {
   NetTeam team = parked_team(square(1.0), square(1.2));
   team.net().rest.pop_back();
-  expect_only(team.judge(), Kind::malformed);
+  EXPECT_THROW(team.judge(), InputError);
   team.net().rest = regular(5, 1.4);
-  expect_only(team.judge(), Kind::malformed);
+  EXPECT_THROW(team.judge(), InputError);
   team.scenario.net.reset();
   team.scenario.payload = net::Payload{};
   expect_only(team.judge(), Kind::malformed);

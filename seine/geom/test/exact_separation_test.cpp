@@ -108,8 +108,9 @@ TEST(ExactSeparation, AgreesWithIntegersAtAllScalesAndFarAway) {
     };
     const std::vector<Vec2> ra = real(a), rb = real(b);
     const long double wanted = exact * static_cast<long double>(scale);
-    // Vertices nearer than 1e-11 m are one to it; differences of these coordinates are exact.
-    const double tolerance = 2e-11 + 1e-12 * scale * (size + shift);
+    // Vertices nearer than 1e-11 m are one to it; far away, coordinates are multiplied before they are
+    // subtracted.
+    const double tolerance = 2e-11 + 1e-12 * scale * (size + shift) + 1e-15 * away;
     const double found = separation(std::span<const Vec2>(ra), std::span<const Vec2>(rb)).distance;
     worst = std::max(worst, std::abs(found - wanted) / static_cast<long double>(scale * (size + shift)));
     ASSERT_NEAR(found, static_cast<double>(wanted), tolerance) << "seed " << kSeed << ", pair " << i;

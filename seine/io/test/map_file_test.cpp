@@ -142,8 +142,8 @@ TEST(MapFile, HostilePicturesAreRefused) {
   EXPECT_EQ(said(""), "a: is no picture this program reads, expected PGM (P2 or P5) or PNG");
   EXPECT_EQ(said("P5\n1000000 1000000\n255\n"), "a:3: has too many pixels, expected at most 25 million");
   EXPECT_EQ(said("P5\n99999999999999999999 1\n255\n"), "a:2: has width 1000000000, expected 1 to 1000000");
-  EXPECT_EQ(said("P5\n10000 10000\n255\nabc"), "a:3: ends after 3 of 100000000 pixels");
-  EXPECT_EQ(said("P2\n10000 10000\n255\n1 2 3"), "a:3: is too short for its width and height");
+  EXPECT_EQ(said("P5\n5000 5000\n255\nabc"), "a:3: ends after 3 of 25000000 pixels");
+  EXPECT_EQ(said("P2\n5000 5000\n255\n1 2 3"), "a:3: is too short for its width and height");
   EXPECT_EQ(said("P2\n2 1\n255\n1 x\n"), "a:4: has no shade where a whole number was expected");
   EXPECT_EQ(said("P2\n2 1\n255\n1 256\n"), "a:4: has shade 256, expected 0 to 255");
   EXPECT_EQ(said("P5\n0 1\n255\n"), "a:2: has width 0, expected 1 to 1000000");
@@ -172,7 +172,7 @@ TEST(MapFile, MovingAiMistakesAreNamed) {
   };
   EXPECT_EQ(said("type octile\nheight 1\nwidth 2\nmap\n.@\n"), "");
   EXPECT_EQ(said("type octile\nheight 1\nwidth 2\nmap\n.\n\n"), "a.map:5: has 1 cells, expected 2");
-  EXPECT_EQ(said("type octile\nheight 99999\nwidth 99999\nmap\n.\n"),
+  EXPECT_EQ(said("type octile\nheight 4999\nwidth 4999\nmap\n.\n"),
             "a.map:5: is too short for its width and height");
   EXPECT_EQ(said("type octile\nheight x\n"),
             "a.map:2: is no MovingAI map, expected 'height' and 1 to 100000");

@@ -1,5 +1,5 @@
 // Maps are solid for the planner, too: what it certifies on random maps, turned and shifted, in any bounds,
-// is held against a look at every cell (world/test/cells.hpp). SEINE_MAP_PLANS in the environment asks for
+// is held against a look at every cell (cells.hpp). SEINE_MAP_PLANS in the environment asks for
 // another number of plans.
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include "seine/base/effort.hpp"
 #include "seine/planner/planner.hpp"
 #include "seine/world/check.hpp"
-#include "seine/world/test/cells.hpp"
+#include "tests/maps/cells.hpp"
 
 namespace seine::planner {
 namespace {

@@ -1,5 +1,5 @@
 // Maps are solid: random maps, turned and shifted, in any bounds, and random drives on them, against a look
-// at every cell (world/test/cells.hpp). SEINE_MAP_CASES in the environment asks for another number of cases.
+// at every cell (cells.hpp). SEINE_MAP_CASES in the environment asks for another number of cases.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -7,7 +7,7 @@
 #include "seine/base/effort.hpp"
 #include "seine/certify/certificate.hpp"
 #include "seine/certify/test/plans.hpp"
-#include "seine/world/test/cells.hpp"
+#include "tests/maps/cells.hpp"
 
 namespace seine::certify::test {
 namespace {
