@@ -68,8 +68,12 @@ PlanResult by(const Method& method, const world::Scenario& scenario, const Optio
   world::expect_numbers(scenario);
   const std::optional<world::Scenario> mended = lawful(scenario);
   const world::Scenario& task = mended ? *mended : scenario;
-  if (const auto origin = world::local_origin(task)) return from_afar(method, task, *origin, options);
-  return method(task, options);
+  const auto origin = world::local_origin(task);
+  PlanResult result = origin ? from_afar(method, task, *origin, options) : method(task, options);
+  // Huge tasks may use up a short deadline before the first attempt.
+  if (!result.certified && result.reason.empty())
+    result.reason = "gave up at the deadline while the task was still being read and checked; allow more time";
+  return result;
 }
 
 PlanResult plan(const world::Scenario& scenario, const Options& options) {
