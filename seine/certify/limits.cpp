@@ -13,6 +13,9 @@ namespace {
 constexpr int kDeepest = 40;
 // Of one car, and more for each cell: an hour at 99.99 % of a limit takes some 30 for each.
 constexpr std::size_t kMostSteps = 1u << 18, kMostStepsOfCell = 1u << 8;
+// Once a limit is broken there is nothing left to prove: how badly it and others are broken is worth less
+// work.
+constexpr std::size_t kMostStepsRefuted = 1u << 12, kMostStepsOfCellRefuted = 1u << 6;
 // A value met beyond the limit is followed up until nothing in its cell is this much worse, relative to the
 // limit.
 constexpr double kWorstResolution = 1e-3;
@@ -126,6 +129,7 @@ LimitProof::Mask LimitProof::unproved(Mask mask, const Stretch& stretch, const S
       const double time = stretch.clock(at_a >= at_b ? a.w : b.w);
       rule.worst = std::max(rule.worst, top);
       rule.episodes.offer(cell_begin_, cell_end_, time, top, top - rule.limit);
+      refuted_ = true;
     }
     const bool by_curve = rule.quantity == curvature && monotone_;
     const double width = by_curve ? range : duration;
@@ -138,10 +142,14 @@ LimitProof::Mask LimitProof::unproved(Mask mask, const Stretch& stretch, const S
   return open;
 }
 
+std::size_t LimitProof::most_steps() const {
+  return refuted_ ? kMostStepsRefuted + kMostStepsOfCellRefuted * cells_
+                  : kMostSteps + kMostStepsOfCell * cells_;
+}
+
 void LimitProof::refine(Mask mask, const Stretch& stretch, const Sample& a, const Sample& b, int depth) {
   if (++steps_ % 512 == 0) context_.out_of_time();
-  if (depth >= kDeepest || steps_ > kMostSteps + kMostStepsOfCell * cells_ ||
-      context_.expired.load(std::memory_order_relaxed)) {
+  if (depth >= kDeepest || steps_ > most_steps() || context_.expired.load(std::memory_order_relaxed)) {
     for (std::size_t r = 0; r < rules_.size(); ++r) {
       if ((mask & (1u << r)) == 0 || rules_[r].worst > 0.0 || rules_[r].undecided) continue;
       rules_[r].undecided = true;

@@ -43,6 +43,7 @@ class LimitProof {
                   const Bends& bends);
   /// Of the rules in `mask`, those not proved on the cell.
   Mask unproved(Mask mask, const Stretch& stretch, const Sample& a, const Sample& b, const Bends& bends);
+  std::size_t most_steps() const;
   void refine(Mask mask, const Stretch& stretch, const Sample& a, const Sample& b, int depth);
 
   Context& context_;
@@ -52,6 +53,7 @@ class LimitProof {
   std::vector<Rule> rules_;  // those of RuleIndex, then one for each of the context's carries
   double cell_begin_ = 0.0, cell_end_ = 0.0;
   bool monotone_ = true;  // u, on the cell at hand
+  bool refuted_ = false;
   std::size_t steps_ = 0, cells_ = 0;
 };
 
