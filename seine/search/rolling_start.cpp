@@ -50,7 +50,9 @@ bool follows(const RollingStart& start, const Path& path, double share) {
 
 std::optional<Path> brake_straight(const RollingStart& start, double share) {
   // The profile's steps need a little more than the formula.
-  const double length = start.braking_distance(share) + 0.02 * start.braking_distance(1.0);
+  double length = start.braking_distance(share) + 0.02 * start.braking_distance(1.0);
+  const double within_a_step = 0.5 * std::abs(start.speed) * start.step;
+  if (std::abs(start.speed) <= share * start.model->limits.acceleration * start.step) length = within_a_step;
   if (clear_ahead(start, length) < length) return std::nullopt;
   return straight_on(start, length);
 }

@@ -16,6 +16,7 @@ struct RollingStart {
   geom::Pose2 pose;
   double speed = 0.0;      ///< m/s, signed, not 0
   double clearance = 0.0;  ///< m, to obstacles
+  double step = 0.0;       ///< s, of the velocity plan: within less than that it does not stop
 
   int gear() const { return speed < 0.0 ? -1 : 1; }
   /// m, until it rests when it brakes with so much of its acceleration.

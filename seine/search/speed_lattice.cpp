@@ -105,22 +105,25 @@ void SpeedLattice::cut_stretches(double start_speed) {
 }
 
 bool SpeedLattice::add_stretch(double begin, double end, int gear, double slowest) {
-  const bool moving = stub_ && stretches_.empty();
+  const bool moving = stub_ && s_.empty();
   const double unit = std::min(grid_.unit, 0.5 * slowest * grid_.step);
   if (!(unit > 0.0)) return false;
-  double stub = 0.0, scaled = unit;
-  const int parity = moving ? start_level_ % 2 : 0;
-  int count = 0;
-  for (int pass = 0; pass < (moving ? 6 : 1);
-       ++pass) {  // the braking way and the unit depend on each other: a contraction
-    if (moving) stub = 0.5 * (start_speed_ + start_level_ * 2.0 * scaled / grid_.step) * grid_.step;
-    const double length = end - begin - stub;
-    if (length <= 0.0 || !(length < kMostUnits * unit)) return false;
-    if (pass == 0) count = 2 * static_cast<int>(std::ceil((length / unit - parity) / 2.0 - 1e-9)) + parity;
-    count = std::max(count, 2 - parity);
-    scaled = length / count;
+  // A car that moves takes one step to come from its speed to level k, over a stub of ½ (v + k · 2 unit / step)
+  // · step: what is left is (count + k) units.
+  const int level = moving ? start_level_ : 0, parity = level % 2;
+  const double stub = moving ? 0.5 * start_speed_ * grid_.step : 0.0;
+  const double length = end - begin - stub;
+  constexpr double kRounding = 1e-9;
+  if (moving && level == 0 && std::abs(length) <= kRounding) {  // it stops at the end of its stub
+    s_.push_back(end);
+    return true;
   }
-  begin += stub;
+  if (length <= 0.0 || !(length < kMostUnits * unit)) return false;
+  const double units = std::max(0.0, length / unit - level);
+  int count = 2 * static_cast<int>(std::ceil((units - parity) / 2.0 - 1e-9)) + parity;
+  count = std::max({count, 2 - parity, level * level});  // k² units to stop from level k
+  const double scaled = length / (count + level);
+  begin += stub + level * scaled;
   if (s_.empty()) s_.push_back(begin);
   stretches_.push_back({units_, units_ + count, begin, scaled, gear});
   for (int i = 1; i <= count; ++i) s_.push_back(begin + (end - begin) * i / count);

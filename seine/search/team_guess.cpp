@@ -158,7 +158,9 @@ std::optional<Path> Guess::find_path_from(const world::Robot& who, const geom::P
   PathOptions plainly = options;
   plainly.short_moves = false;
   plainly.quickest = false;  // what is quickest from rest need not be from speed
-  const RollingStart rolling{&map_, &scenario_.model_of(who), start, who.start_speed, options.clearance};
+  const vehicle::Model& model = scenario_.model_of(who);
+  const RollingStart rolling{
+      &map_, &model, start, who.start_speed, options.clearance, speed_grid(model, options_.lattice).step};
   const double hardest = options_.lattice.acceleration_factor;
   std::optional<Path> path = planner.plan(start, *who.goal, plainly);
   // Where that failed the car brakes first.

@@ -85,6 +85,19 @@ TEST(Plan, StartsAtTheSpeedTheCarHasForwardsAndBackwards) {
   }
 }
 
+// A way to stop is shorter than a step of the velocity plan where the car creeps.
+TEST(Plan, StopsFromAnySpeedBeforeItTurnsBack) {
+  for (const double speed : {0.001, 0.02, 0.1, 0.25, 0.4, 0.9, 2.0}) {
+    for (const double way : {1.0, -1.0}) {
+      world::Scenario scenario = open_field();
+      scenario.robots = {robot("a", {2.0, 0.0, 0.0}, {2.0 - way, 0.0, 0.05}, way * speed)};
+      const PlanResult result = plan(scenario);
+      ASSERT_TRUE(result.certified) << "speed " << way * speed << ": " << result.reason;
+      EXPECT_LT(result.plan.makespan(), 6.0) << "speed " << way * speed;
+    }
+  }
+}
+
 TEST(Plan, AvoidsWhatMoves) {
   world::Scenario scenario = open_field();
   scenario.robots = {robot("a", {0.0, 0.0, 0.0}, {10.0, 0.0, 0.0})};
