@@ -29,6 +29,12 @@ const CLI::Validator kPositive(
     },
     "ABOVE 0");
 
+const CLI::Validator kNamed(
+    [](std::string& text) -> std::string {
+      return text.empty() ? "expected the name of a file, not ''" : "";
+    },
+    "FILE");
+
 CLI::Validator whole_number(long long low, long long high) {
   return CLI::Validator(
       [low, high](std::string& text) -> std::string {

@@ -78,6 +78,8 @@ void add_seed(CLI::App& command, std::uint64_t& seed, const std::string& meaning
 void add_json(CLI::App& command, Invocation& invocation);
 /// Accepts finite numbers above zero, as text.
 extern const CLI::Validator kPositive;
+/// Accepts any name but none at all: an unset variable must not mean "nowhere".
+extern const CLI::Validator kNamed;
 /// Accepts whole numbers in decimal from `low` to `high`; what is beyond is refused, not cut off.
 CLI::Validator whole_number(long long low, long long high);
 /// What to say after a word that is none of these: the nearest, and all.

@@ -55,6 +55,7 @@ void add_export(CLI::App& program, Invocation& invocation) {
       ->check(kPositive)
       ->capture_default_str();
   command.add_option("-o,--output", arguments->output, "*.csv, *.tum or *.yaml; -: CSV on stdout")
+      ->check(kNamed)
       ->required();
   command.callback([&invocation, arguments] { invocation.run = [arguments] { return run(*arguments); }; });
 }

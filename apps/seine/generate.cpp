@@ -150,7 +150,10 @@ void add_generate(CLI::App& program, Invocation& invocation) {
   command.add_option("--map", arguments->map, "the map for the family map");
   command.add_option("--kind", arguments->kind, "everyday: which kind (default: open)");
   command.add_option("--vehicle", arguments->vehicle, "everyday: which vehicle (default: letter)");
-  command.add_option("-o,--output", arguments->output, "file to write (default, or -: stdout)");
+  command
+      .add_option("-o,--output", arguments->output,
+                  "file to write (default, or -: stdout); for a map NAME-map.yaml and NAME-map.pgm beside it")
+      ->check(kNamed);
   command.callback([&invocation, arguments] { invocation.run = [arguments] { return run(*arguments); }; });
 }
 

@@ -94,8 +94,9 @@ int run(const Arguments& arguments, bool json) {
   planner::PlanResult result = with_places(reading, [&] { return plan(scenario, arguments, options); });
   line.clear();
   const int interrupted = interrupted_status();
-  if (interrupted != 0) std::fputs("seine: interrupted\n", stderr);
   if (interrupted != 0 && !result.certified) result.reason = "interrupted before there was a certified plan";
+  if (interrupted != 0)
+    std::fprintf(stderr, "seine: %s\n", result.certified ? "interrupted" : result.reason.c_str());
   if (result.certified && !arguments.output.empty()) {
     write_output(arguments.output, io::plan_text(scenario, result,
                                                  {.method = arguments.method,
@@ -117,9 +118,11 @@ void add_plan(CLI::App& program, Invocation& invocation) {
   command.footer(kFooter);
   const auto arguments = std::make_shared<Arguments>();
   add_scenario(command, arguments->scenario);
-  command.add_option("-o,--output", arguments->output, "where the plan goes, plan.json; -: stdout");
+  command.add_option("-o,--output", arguments->output, "where the plan goes, plan.json; -: stdout")
+      ->check(kNamed);
   command
-      .add_option("--deadline", arguments->deadline, "seconds of wall time; the best certified plan by then")
+      .add_option("--deadline", arguments->deadline,
+                  "seconds of wall time; the best certified plan by then (default: no limit)")
       ->check(kPositive);
   add_threads(command, arguments->threads);
   add_seed(command, arguments->seed, "for the choices that are drawn");

@@ -5,6 +5,7 @@
 
 #include "apps/seine/command.hpp"
 #include "apps/seine/output.hpp"
+#include "seine/base/error.hpp"
 #include "seine/io/plan_file.hpp"
 #include "seine/io/svg.hpp"
 
@@ -34,6 +35,8 @@ int run(const Arguments& arguments) {
     io::expect_same_team(scenario, *plan, arguments.plan);
   }
   expect_writable(arguments.output, reading);
+  if (!is_stdout(arguments.output) && !arguments.output.ends_with(".svg"))
+    throw InputError(arguments.output + ": has an unknown ending, expected .svg");
   write_output(arguments.output, io::svg_text(scenario, plan ? &plan->plan : nullptr, options));
   return kDone;
 }
@@ -46,7 +49,9 @@ void add_plot(CLI::App& program, Invocation& invocation) {
   const auto arguments = std::make_shared<Arguments>();
   add_scenario(command, arguments->scenario);
   command.add_option("PLAN", arguments->plan, "plan.json");
-  command.add_option("-o,--output", arguments->output, "the picture, *.svg; -: on stdout")->required();
+  command.add_option("-o,--output", arguments->output, "the picture, *.svg; -: on stdout")
+      ->required()
+      ->check(kNamed);
   command.add_flag("--whole", arguments->whole, "all of a large map, also where nobody drives");
   command.callback([&invocation, arguments] { invocation.run = [arguments] { return run(*arguments); }; });
 }

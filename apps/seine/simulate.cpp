@@ -176,7 +176,8 @@ void add_simulate(CLI::App& program, Invocation& invocation) {
   add_seed(command, arguments->seed, "for what is drawn: noise, and choices of the planner");
   command.add_option("--fault", arguments->faults, "something that goes wrong, see below")
       ->allow_extra_args(false);
-  command.add_option("--log", arguments->log, "every signal, *.csv or *.mcap; -: CSV on stdout");
+  command.add_option("--log", arguments->log, "every signal, *.csv or *.mcap; -: CSV on stdout")
+      ->check(kNamed);
   command
       .add_option("--deadline", arguments->deadline,
                   "seconds of wall time for the plan that is made, or for the proof of the one given")

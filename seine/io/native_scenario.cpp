@@ -209,10 +209,10 @@ world::Robot read_robot(const YamlValue& value, std::size_t index, const Scenari
   const vehicle::Limits& limits = scenario.model_of(robot).limits;
   const std::optional<double> granted = world::granted_speed(limits, robot.start_speed);
   if (!granted) {
-    start.at("speed").fail(joined("is ", number_text(robot.start_speed),
-                                  ", beyond what the model can drive: ", number_text(-limits.reverse_speed),
-                                  " to ", number_text(limits.speed),
-                                  " m/s, and 1 % more for measured speeds"));
+    start.at("speed").fail(
+        joined("is ", number_text(robot.start_speed), ", beyond what the model can drive: ",
+               number_text(limits.reverse_speed > 0.0 ? -limits.reverse_speed : 0.0), " to ",
+               number_text(limits.speed), " m/s, and 1 % more for measured speeds"));
   }
   robot.start_speed = *granted;
   const auto goal = map.find("goal");

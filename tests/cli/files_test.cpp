@@ -85,6 +85,16 @@ TEST_F(Sacred, GeneratedMapsReplaceNothingTheyAreMadeOf) {
   EXPECT_FALSE(scratch.has("t.yaml"));
 }
 
+TEST_F(Sacred, NoNameIsNoWish) {
+  for (const char* command : {"plan task.yaml -o ''", "plot task.yaml -o ''", "export task.yaml p.json -o ''",
+                              "simulate task.yaml p.json --log ''", "generate random -o ''",
+                              "bench task.yaml -o ''", "plot task.yaml -o picture.png"}) {
+    const Outcome outcome = scratch.run(command);
+    EXPECT_EQ(outcome.status, 2) << command << outcome.out;
+    EXPECT_TRUE(is_one_line(outcome.err)) << command << ": " << outcome.err;
+  }
+}
+
 TEST_F(Sacred, ReplacedFilesKeepModeAndNames) {
   const fs::path file = scratch.folder() / "p.json";
   fs::remove(scratch.folder() / "p-hard.csv");
