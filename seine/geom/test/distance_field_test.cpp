@@ -8,6 +8,7 @@
 #include <numbers>
 #include <vector>
 
+#include "seine/base/effort.hpp"
 #include "seine/base/rng.hpp"
 
 namespace seine::geom {
@@ -65,7 +66,7 @@ TEST(DistanceField, IsExactAtNodesAndBelowTheTruthBetweenWhenPiecesAreFew) {
 TEST(DistanceField, IsExactNearbyAndADiagonalShortAfarWhenPiecesAreMany) {
   Rng rng(kSeed);
   const Box box{{0.0, 0.0}, {10.0, 8.0}};
-  for (int scene = 0; scene < 10; ++scene) {
+  for (int scene = 0; scene < effort(10, 3); ++scene) {
     const Box quarter{{0.0, 0.0}, {5.0, 4.0}};
     const std::vector<Convex> pieces = random_pieces(rng, 300, quarter, 0.05);
     const double cell = rng.uniform(0.07, 0.13);

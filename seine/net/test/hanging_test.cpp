@@ -10,6 +10,7 @@
 #include <numbers>
 #include <optional>
 
+#include "seine/base/effort.hpp"
 #include "seine/geom/box.hpp"
 #include "seine/geom/polygon.hpp"
 #include "seine/net/shape.hpp"
@@ -87,7 +88,7 @@ double deepest_by_search(const Cloth& cloth, Rng& rng) {
 TEST(LoadedDepth, IsTheDeepestThatASearchFinds) {
   Rng rng(kSeed);
   for (const std::size_t corners : {3u, 4u, 5u, 6u, 8u}) {
-    for (int round = 0; round < 25; ++round) {
+    for (int round = 0; round < effort(25, 8); ++round) {
       const Net net = net_of(random_convex(rng, corners));
       const Cloth cloth{net.rest, random_hold(rng, net.rest)};
       const double found = deepest_by_search(cloth, rng);
