@@ -42,6 +42,19 @@ std::vector<Context::Carry> carries_of(const world::Scenario& scenario,
     if (crossings[i] && crossings[i]->state.time >= 0.0 && drag > 0.0)
       carries.push_back({crossings[i]->state.time, net::carry_speed(drag), static_cast<int>(i)});
   }
+  std::ranges::stable_sort(carries, {}, &Context::Carry::from);
+  double strictest = std::numeric_limits<double>::infinity();
+  std::erase_if(carries, [&](const Context::Carry& carry) {
+    const bool implied = !(carry.speed < strictest);
+    strictest = std::min(strictest, carry.speed);
+    return implied;
+  });
+  // Of too many the last asks from the time of the first that is too much: for more than there is to ask.
+  if (carries.size() > Context::kMostCarries) {
+    carries[Context::kMostCarries - 1].speed = carries.back().speed;
+    carries[Context::kMostCarries - 1].target = carries.back().target;
+    carries.resize(Context::kMostCarries);
+  }
   return carries;
 }
 

@@ -141,8 +141,22 @@ class Charter {
     }
     joints_.join(*last_, side_of(stretch, from), stretch.clock(from.w), joint_);
     if (chunk.knot_near >= 0.0) chart_both_sides(segment, j, chunk, clock);
+    if (chunk.knot_from >= 0.0) join_pieces_at(segment, j, chunk.knot_from, chunk.from, clock);
     divide(stretch, from, to, 0);
+    if (chunk.knot_to >= 0.0) join_pieces_at(segment, j, chunk.knot_to, chunk.to, clock);
     last_ = side_of(stretch, to);
+  }
+
+  /// An end so near to a knot that it may lie beyond it is not cut off: the curve pieces must agree there.
+  /// How fast the car would move there does not count, for it moves by less than the size of that end.
+  void join_pieces_at(const Segment& segment, std::size_t j, double knot, double w, double clock) {
+    const auto right = static_cast<std::size_t>(knot);
+    const Stretch before{traj::drive_on(segment, j, right - 1), clock},
+        after{traj::drive_on(segment, j, right), clock};
+    const Side left = side_of(before, before.sample(w, model_.wheelbase));
+    Side beyond = side_of(after, after.sample(w, model_.wheelbase));
+    beyond.speed = left.speed;  // of the next progress piece, whose unit of u may be another
+    joints_.join(left, beyond, before.clock(w), kBetweenCurvePieces);
   }
 
   /// u at its turning points and joints: in between it is monotone.

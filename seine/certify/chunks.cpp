@@ -91,23 +91,32 @@ class Cutter {
   void close_run(double to) {
     const double sign = run_direction_, begin = u(run_from_), end = u(to);
     double from = run_from_;
+    double knot_from = knot_at(begin);
     double knot = sign > 0.0 ? std::max(1.0, std::floor(begin) + 1.0)
                              : std::min(last_knot_ - 1.0, std::ceil(begin) - 1.0);
     for (; knot >= 1.0 && knot < last_knot_; knot += sign) {
       if (sign * (knot - begin) <= still_) continue;
       if (sign * (end - knot) <= still_) break;
       const double at = crossing(knot, sign, from, to);
-      add_run(from, at);
+      add_run(from, at, knot_from, -1.0);
       from = at;
+      knot_from = -1.0;
     }
-    add_run(from, to);
+    add_run(from, to, knot_from, knot_at(end));
   }
 
-  void add_run(double from, double to) {
+  /// The inner knot nearer than `still_`; negative: none.
+  double knot_at(double u) const {
+    const double knot = std::round(u);
+    return knot >= 1.0 && knot < last_knot_ && std::abs(u - knot) <= still_ ? knot : -1.0;
+  }
+
+  void add_run(double from, double to, double knot_from, double knot_to) {
     if (!(from < to)) return;
     const double middle = u(0.5 * (from + to));
     const double back = run_direction_ < 0 ? std::max(0.0, u(from) - u(to)) : 0.0;
-    chunks_.push_back({traj::piece_at(middle, pieces_), from, to, run_direction_, back, -1.0});
+    chunks_.push_back(
+        {traj::piece_at(middle, pieces_), from, to, run_direction_, back, -1.0, knot_from, knot_to});
   }
 
   /// Where u passes `level` between two parameters that enclose it: Newton's steps, or halves where those

@@ -15,6 +15,8 @@ struct Chunk {
   int direction = 1;
   double backwards = 0.0;   ///< how far u goes back on it, at most
   double knot_near = -1.0;  ///< the inner knot that u may pass on it, both ways; negative: none
+  /// Where u never goes both ways: the inner knots that its ends may lie beyond, by less than `still`.
+  double knot_from = -1.0, knot_to = -1.0;
 };
 
 /// The largest |p'| on a curve piece: not below the true one, and less than twice as large for sane pieces.

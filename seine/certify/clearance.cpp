@@ -5,6 +5,7 @@
 #include <map>
 
 #include "seine/certify/tolerances.hpp"
+#include "seine/geom/blocked.hpp"
 #include "seine/geom/convex.hpp"
 
 namespace seine::certify {
@@ -209,13 +210,8 @@ class RobotClearance {
     if (!context_.scenario.map) return;
     const geom::OccupancyGrid& grid = *context_.scenario.map;
     const Frame start = mover_.frame(mover_.cells.front(), 0.0);
-    const Vec2 along = grid.origin.direction();
     for (const Vec2 p : mover_.core) {
-      const Vec2 d = to_world(start, p) - grid.origin.position();
-      const double column = std::floor(geom::dot(along, d) / grid.resolution);
-      const double row = std::floor(geom::cross(along, d) / grid.resolution);
-      if (column < 0.0 || row < 0.0 || column >= grid.width || row >= grid.height) continue;
-      if (!grid.blocked(static_cast<int>(column), static_cast<int>(row))) continue;
+      if (!geom::is_blocked(grid, to_world(start, p))) continue;
       const double margin = context_.scenario.margins.obstacle;
       out_.findings.push_back(
           {{Kind::obstacle_clearance, 0.0, robot_, -1, 0.0, margin,

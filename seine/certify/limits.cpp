@@ -20,7 +20,7 @@ constexpr std::size_t kMostStepsRefuted = 1u << 12, kMostStepsOfCellRefuted = 1u
 // limit.
 constexpr double kWorstResolution = 1e-3;
 enum RuleIndex : std::size_t { kForward, kReverse, kBackwards, kTangential, kBraking = 7, kCarrying };
-constexpr std::size_t kMostCarries = 20;  // a mask has 32 bits
+static_assert(kCarrying + Context::kMostCarries <= 32, "a mask has 32 bits");
 
 const char* describe(Kind kind) {
   switch (kind) {
@@ -74,7 +74,6 @@ LimitProof::LimitProof(Context& context, int robot) : context_(context), robot_(
             rule(Kind::steering_rate, steering_rate, limits.steering_rate, v / length),
             rule(Kind::braking, tangential, net::kBraking, a_unit)};
   for (const Context::Carry& carry : context.carries) {
-    if (rules_.size() >= kCarrying + kMostCarries) break;
     rules_.push_back(rule(Kind::carrying, pace, carry.speed, v));
     rules_.back().other = carry.target;
   }

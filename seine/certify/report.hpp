@@ -45,7 +45,10 @@ struct Context {
     double from, speed;  ///< s, m/s
     int target;
   };
-  std::vector<Carry> carries;  ///< from then on no car drives faster, for the sake of that target
+  static constexpr std::size_t kMostCarries = 20;
+  /// From then on no car drives faster, for the sake of that target: by time, each stricter than all before;
+  /// at most kMostCarries.
+  std::vector<Carry> carries;
   std::atomic<bool> expired{false};
 
   /// True once the deadline has passed; looks at the clock.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "seine/certify/tolerances.hpp"
+#include "seine/geom/blocked.hpp"
 #include "seine/geom/convex.hpp"
 
 namespace seine::certify {
@@ -32,6 +33,7 @@ UnderneathProof::UnderneathProof(Context& context, const Formation& formation, H
 
 void UnderneathProof::run(const Scene& scene) {
   const auto beats = formation_.beats();
+  starts_inside();
   for (std::size_t first = 0; first < beats.size() && !context_.out_of_time(); first += kBlock)
     against_block(beats.subspan(first, std::min(kBlock, beats.size() - first)));
   for (const auto& [index, episodes] : pieces_) {
@@ -39,6 +41,17 @@ void UnderneathProof::run(const Scene& scene) {
     report(index, context_.map.describe(index), context_.height_of(obstacle), episodes);
   }
   for (const MovingPart& part : scene.moving) against(part);
+}
+
+/// The static map has only the rims of blocked areas: a net that starts wholly inside one never meets its
+/// rim.
+void UnderneathProof::starts_inside() {
+  if (!context_.scenario.map) return;
+  const Vec2 corner = formation_.slice(formation_.beats().front()).from.front();
+  if (!geom::is_blocked(*context_.scenario.map, corner)) return;
+  findings_.push_back({{Kind::net_obstacle, 0.0, -1, -1, 0.0, clearance_,
+                        "the net is inside a blocked area of the map at t = 0"},
+                       clearance_});
 }
 
 double UnderneathProof::wanted() const {

@@ -52,6 +52,7 @@ class UnderneathProof {
   bool passes_under(double height) const;
   void against_block(std::span<const Beat> block);
   void against(const StaticMap::Piece& piece, std::span<const Beat> block);
+  void starts_inside();
   void against(const MovingPart& part);
   void against(const MovingPart& part, const Cell& cell, const Slice& slice, Episodes& episodes);
 

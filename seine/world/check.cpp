@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "seine/base/error.hpp"
+#include "seine/geom/blocked.hpp"
 #include "seine/geom/polygon.hpp"
 #include "seine/world/check_parts.hpp"
 #include "seine/world/granted_speed.hpp"
@@ -128,13 +129,8 @@ Stand stand_of(const Scenario& scenario, std::size_t robot, bool goal) {
 // The map's pieces are the edges of its solid regions: deep inside one nothing is near.
 void check_cell(const Stand& stand, const std::optional<geom::OccupancyGrid>& map, Complaints& out) {
   if (!map) return;
-  const geom::Vec2 at = stand.footprint.core.front(), d = map->origin.direction();
-  const geom::Vec2 from = at - map->origin.position();
-  const auto cell = [&](double metres) { return static_cast<int>(std::floor(metres / map->resolution)); };
-  const double x = geom::dot(from, d), y = geom::cross(d, from);
-  // Beyond the grid it is the bounds that count.
-  if (x < 0.0 || y < 0.0 || cell(x) >= map->width || cell(y) >= map->height) return;
-  if (map->blocked(cell(x), cell(y))) out.push_back(stand.who + " stands in a blocked cell of the map");
+  if (geom::is_blocked(*map, stand.footprint.core.front()))
+    out.push_back(stand.who + " stands in a blocked cell of the map");
 }
 
 // One sentence on a distance that is too small.

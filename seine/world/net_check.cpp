@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "seine/geom/blocked.hpp"
 #include "seine/geom/convex.hpp"
 #include "seine/geom/polygon.hpp"
 #include "seine/net/flight.hpp"
@@ -168,6 +169,11 @@ struct Under {
 void check_static_under(const Under& under, const StaticMap& map) {
   const Convex net{under.stand.corners, 0.0};
   std::vector<bool> seen(under.scenario.obstacles.size() + 1, false);  // the last: the map
+  // The map has only the rims of its blocked areas: what meets none is wholly inside or wholly outside.
+  if (under.scenario.map && geom::is_blocked(*under.scenario.map, net.core.front())) {
+    seen.back() = true;
+    under.complain("a blocked area of the map", std::numeric_limits<double>::infinity());
+  }
   map.for_each_near(net.box(), [&](const StaticMap::Piece& piece) {
     const auto slot = piece.obstacle < 0 ? seen.size() - 1 : static_cast<std::size_t>(piece.obstacle);
     if (seen[slot] || geom::separation(net, piece.shape).distance >= 0.0) return;

@@ -229,6 +229,20 @@ TEST(PlantedCatch, CarriedTooFastForItsDrag) {
     }
 }
 
+TEST(PlantedCatch, OfManyWithDragTheStrictestCounts) {
+  for (const double share : {0.98, 1.02}) {
+    NetTeam team = team_that_carries_on(share * net::carry_speed(2.0));
+    net::Target target = team.scenario.targets[0];
+    target.velocity = {}, target.time = 0.0, target.position = {0.0, 0.0, 1.5};
+    team.scenario.targets.clear();
+    for (int i = 0; i <= 60; ++i) {  // each a little stricter than the one before
+      target.drag = 2.0 * std::pow(0.9, 60 - i);
+      team.scenario.targets.push_back(target);
+    }
+    EXPECT_EQ(breaks(team.judge(), Kind::carrying), share > 1.0) << summary(team.judge());
+  }
+}
+
 TEST(PlantedCatch, NeverComes) {
   NetTeam team = catching_team();
   const auto falls = [&](net::Target target) {

@@ -301,6 +301,18 @@ TEST(PlantedNet, IsNotDelivered) {
   expect_only(team.judge(), Kind::goal);
 }
 
+TEST(PlantedNet, InsideASolidAreaOfTheMap) {
+  NetTeam team = parked_team(square(1.0), square(1.2));
+  geom::OccupancyGrid grid{60, 60, 0.1, {-3.0, -3.0, 0.0}, {}};
+  grid.occupied.assign(3600, 0);
+  team.scenario.map = grid;
+  EXPECT_FALSE(breaks(team.judge(), Kind::net_obstacle)) << summary(team.judge());
+  for (int row = 12; row < 48; ++row)
+    for (int column = 12; column < 48; ++column)
+      team.scenario.map->occupied[static_cast<std::size_t>(60 * row + column)] = 1;
+  EXPECT_TRUE(breaks(team.judge(), Kind::net_obstacle)) << summary(team.judge());
+}
+
 TEST(PlantedNet, QuestionsThatMakeNoSense) {
   NetTeam team = parked_team(square(1.0), square(1.2));
   team.net().rest.pop_back();

@@ -56,6 +56,7 @@ TEST(Plan, GetsIntoTightPlacesAndOut) {
 /// A wall beside, before or behind the car, exactly at the margin or with a millimetre or three to spare.
 TEST(Plan, LeavesAndReachesPlacesAtTheMargin) {
   for (const double spare : {0.0, 0.001, 0.003}) {
+    if (effort(1, 0) == 0 && spare != 0.001) continue;
     for (const bool leaves : {true, false}) {
       world::Scenario scenario;
       scenario.bounds = {{-8.0, -8.0}, {8.0, 8.0}};

@@ -4,6 +4,7 @@
 
 #include <queue>
 
+#include "seine/base/effort.hpp"
 #include "seine/base/rng.hpp"
 #include "seine/geom/convex.hpp"
 #include "seine/search/cost_to_go.hpp"
@@ -96,7 +97,8 @@ TEST(FootprintChecker, SweepsAgreeWithDenseLooking) {
     FootprintChecker checker(scene.map, &scene.distances, scene.car(), 0.05);
     checker.set_slack(slack);
     int clear = 0, blocked = 0;
-    while (clear < 300 || blocked < 300) {
+    const int wanted = effort(300, 50);
+    while (clear < wanted || blocked < wanted) {
       const geom::Vec2 p = scene.somewhere(rng);
       const geom::Pose2 from{p.x, p.y, rng.uniform(-3.1, 3.1)};
       if (!checker.clear(from)) continue;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "seine/base/effort.hpp"
 #include "seine/base/rng.hpp"
 #include "seine/math/finite_difference.hpp"
 #include "seine/trajopt/joint_problem.hpp"
@@ -113,7 +114,7 @@ TEST(JointProblem, GradientAgreesWithCentralDifferencesWithEveryTermActive) {
   std::vector<double> errors;
   for (const bool rectangles : {true, false})
     for (const double knee : {0.3, 0.03})
-      for (std::uint64_t seed = 1; seed <= 6; ++seed, ++runs)
+      for (std::uint64_t seed = 1; seed <= effort(6, 3); ++seed, ++runs)
         errors.push_back(worst_error(seed, rectangles, knee, kinks));
   std::sort(errors.begin(), errors.end());
   std::printf("gradient error: median %.1e, worst %.1e, over 2e-6 in %d of %d\n", errors[errors.size() / 2],
