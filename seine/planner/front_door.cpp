@@ -72,7 +72,8 @@ PlanResult by(const Method& method, const world::Scenario& scenario, const Optio
   PlanResult result = origin ? from_afar(method, task, *origin, options) : method(task, options);
   // Huge tasks may use up a short deadline before the first attempt.
   if (!result.certified && result.reason.empty())
-    result.reason = "gave up at the deadline while the task was still being read and checked; allow more time";
+    result.reason =
+        "gave up at the deadline while the task was still being read and checked; allow more time";
   return result;
 }
 

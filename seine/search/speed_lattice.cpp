@@ -108,8 +108,8 @@ bool SpeedLattice::add_stretch(double begin, double end, int gear, double slowes
   const bool moving = stub_ && s_.empty();
   const double unit = std::min(grid_.unit, 0.5 * slowest * grid_.step);
   if (!(unit > 0.0)) return false;
-  // A car that moves takes one step to come from its speed to level k, over a stub of ½ (v + k · 2 unit / step)
-  // · step: what is left is (count + k) units.
+  // A car that moves takes one step to come from its speed to level k, over a stub of ½ (v + k · 2 unit /
+  // step) · step: what is left is (count + k) units.
   const int level = moving ? start_level_ : 0, parity = level % 2;
   const double stub = moving ? 0.5 * start_speed_ * grid_.step : 0.0;
   const double length = end - begin - stub;
