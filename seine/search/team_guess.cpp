@@ -226,7 +226,8 @@ std::optional<Path> Guess::find_first_way(int robot) const {
   double quickest = drive_time(*best, model);
   for (std::uint64_t seed = 1; seed <= kMoreWays && !options_.deadline.expired(); ++seed) {
     std::optional<Path> other = find_path(robot, bumps(seed), {}, kBriefly);
-    const double time = other ? drive_time(*other, model) : quickest;
+    if (!other) break;  // in places as tight as this the next would hardly fare better
+    const double time = drive_time(*other, model);
     if (time < quickest) quickest = time, best = std::move(other);
   }
   return best;
