@@ -118,19 +118,6 @@ bool Session::guessed_for(const Attempt& now) const {
   return guessed_ && guessed_->guess == now.guess && guessed_->roomier == now.roomier;
 }
 
-// Of a search that was cut short: which cars it was busy with.
-std::string Session::late_reason() const {
-  std::vector<int> missing = guess_.without_way;
-  missing.insert(missing.end(), guess_.without_motion.begin(), guess_.without_motion.end());
-  std::string names;
-  constexpr std::size_t kNamed = 3;
-  for (std::size_t i = 0; i < std::min(missing.size(), kNamed); ++i)
-    names += (i > 0 ? ", " : " for ") + scenario_.robots[static_cast<std::size_t>(missing[i])].name;
-  if (missing.size() > kNamed) names += " and " + std::to_string(missing.size() - kNamed) + " more";
-  return "gave up at the deadline, still looking for a way" + names +
-         "; a longer deadline or smaller margins may help";
-}
-
 bool Session::guess(std::uint64_t attempt) {
   const Stopwatch watch;
   report("guess", 0.0);

@@ -10,20 +10,16 @@
 #include "seine/base/rng.hpp"
 #include "seine/base/workers.hpp"
 #include "seine/search/blockers.hpp"
+#include "seine/search/car_paths.hpp"
 #include "seine/search/coordinator.hpp"
-#include "seine/search/drive_time.hpp"
-#include "seine/search/leaving.hpp"
 #include "seine/search/making_way.hpp"
 #include "seine/search/no_passing.hpp"
-#include "seine/search/path_planner.hpp"
 #include "seine/search/precedence.hpp"
 #include "seine/search/refusal.hpp"
 #include "seine/search/rolling_start.hpp"
 #include "seine/search/roundabout.hpp"
 #include "seine/search/side_step.hpp"
-#include "seine/search/space_time_planner.hpp"
 #include "seine/search/team_search.hpp"
-#include "seine/search/whims.hpp"
 
 namespace seine::search {
 namespace {
@@ -33,12 +29,6 @@ std::size_t idx(int i) {
 }
 
 constexpr std::size_t kMostPairs = 4'000'000;  // of cells in a proof: some tenths of a second
-
-std::vector<PathPlanner> planners_for(const world::Scenario& scenario, const world::StaticMap& map) {
-  std::vector<PathPlanner> planners;
-  for (const vehicle::Model& model : scenario.models) planners.emplace_back(map, model);
-  return planners;
-}
 
 // A set of ways for everybody, and how far it got with them.
 struct Attempt {
@@ -54,16 +44,8 @@ class Guess {
   TeamGuess run();
 
  private:
-  std::optional<Path> find_path(int robot, std::span<const Bump> bumps,
-                                std::span<const std::vector<geom::Vec2>> parked, int expansions) const;
-  std::optional<Path> find_path_from(const world::Robot& who, const geom::Pose2& start,
-                                     const PathOptions& options) const;
-  std::optional<Path> find_path_out(const world::Robot& who, const PathOptions& options) const;
-  std::optional<Path> find_path_among(int robot, std::span<const Traffic> traffic,
-                                      const TeamSearch::Sources::Among& how) const;
   TeamSearch::Sources sources();
   Attempt new_attempt() const;
-  std::optional<Path> find_first_way(int robot) const;
   bool find_first_ways(Attempt& attempt);
   void leave_tried_ways(Attempt& attempt) const;
   std::vector<int> first_order(const Coordinator& coordinator) const;
@@ -76,9 +58,8 @@ class Guess {
   const world::Scenario& scenario_;
   const world::StaticMap& map_;
   const GuessOptions& options_;
-  std::vector<PathPlanner> planners_;                             // one for each model
-  std::deque<SideStep> side_steps_;                               // likewise
-  mutable std::vector<std::unique_ptr<SpaceTimePlanner>> among_;  // likewise, made when first needed
+  CarPaths paths_;
+  std::deque<SideStep> side_steps_;  // one for each model
   MakingWay making_way_;
   TeamGuess guess_;
 };
@@ -87,105 +68,24 @@ Guess::Guess(const world::Scenario& scenario, const world::StaticMap& map, const
     : scenario_(scenario),
       map_(map),
       options_(options),
-      planners_(planners_for(scenario, map)),
-      making_way_(scenario, map, planners_,
+      paths_(scenario, map, options),
+      making_way_(scenario, map, paths_.planners(),
                   {scenario.margins.robot + options.extra_robot_clearance, options.deadline}) {
   Stopwatch watch;
   for (const vehicle::Model& model : scenario.models) {
     side_steps_.emplace_back(map, model, scenario.margins.obstacle);
   }
-  among_.resize(scenario.models.size());
   guess_.seconds.field = watch.seconds();
-}
-
-std::optional<Path> Guess::find_path(int robot, std::span<const Bump> bumps,
-                                     std::span<const std::vector<geom::Vec2>> parked, int expansions) const {
-  const world::Robot& who = scenario_.robots[idx(robot)];
-  const PathOptions options{
-      .max_expansions = expansions,
-      .clearance = scenario_.margins.obstacle,
-      .bumps = bumps,
-      .parked = parked,
-      .parked_clearance = scenario_.margins.robot + options_.extra_robot_clearance,
-      .quickest = options_.quickest && bumps.empty() && parked.empty() &&
-                  (scenario_.robots.size() == 1 || slow_reverse(scenario_.model_of(who).limits)),
-      .deadline = options_.deadline};
-  return starts_inside_margin(scenario_, map_, who) ? find_path_out(who, options)
-                                                    : find_path_from(who, who.start, options);
-}
-
-// Out of the margin first, then as usual; the shortest of the ways that are found.
-std::optional<Path> Guess::find_path_out(const world::Robot& who, const PathOptions& options) const {
-  std::optional<Path> best;
-  for (Path& out : ways_out(scenario_, map_, who)) {
-    const int gear = out.points.front().gear;
-    if (gear * who.start_speed < 0.0 || (best && out.length() >= best->length())) continue;
-    const std::optional<Path> rest =
-        planners_[idx(who.model)].plan(out.points.back().pose, *who.goal, options);
-    if (!rest) continue;
-    append(out, *rest);
-    if (!best || out.length() < best->length()) best = std::move(out);
-  }
-  return best;
-}
-
-std::optional<Path> Guess::find_path_among(int robot, std::span<const Traffic> traffic,
-                                           const TeamSearch::Sources::Among& how) const {
-  const world::Robot& who = scenario_.robots[idx(robot)];
-  if (who.start_speed != 0.0) return std::nullopt;
-  std::unique_ptr<SpaceTimePlanner>& planner = among_[idx(who.model)];
-  const vehicle::Model& model = scenario_.model_of(who);
-  if (!planner)
-    planner = std::make_unique<SpaceTimePlanner>(map_, model, speed_grid(model, options_.lattice));
-  constexpr double kExtra = 0.05;  // car lengths: for the velocity plan's steps and for the optimiser
-  return planner->plan(who.start, *who.goal, traffic,
-                       {.clearance = scenario_.margins.obstacle,
-                        .extra = kExtra * model.length(),
-                        .pace = how.pace,
-                        .patience = how.patience,
-                        .hurry = how.hurry,
-                        .deadline = options_.deadline});
-}
-
-// A car that is moving follows a path from its speed on where it can; elsewhere it first brakes straight on,
-// as gently as there is room for.
-std::optional<Path> Guess::find_path_from(const world::Robot& who, const geom::Pose2& start,
-                                          const PathOptions& options) const {
-  if (who.rests_at_goal()) return Path{{{0.0, start, 0.0, 1}}};
-  const PathPlanner& planner = planners_[idx(who.model)];
-  if (who.start_speed == 0.0) return planner.plan(start, *who.goal, options);
-
-  PathOptions plainly = options;
-  plainly.short_moves = false;
-  plainly.quickest = false;  // what is quickest from rest need not be from speed
-  const vehicle::Model& model = scenario_.model_of(who);
-  const RollingStart rolling{
-      &map_, &model, start, who.start_speed, options.clearance, speed_grid(model, options_.lattice).step};
-  const double hardest = options_.lattice.acceleration_factor;
-  std::optional<Path> path = planner.plan(start, *who.goal, plainly);
-  // Where that failed the car brakes first.
-  if (path && options_.quickest && follows(rolling, *path, hardest)) return path;
-  const std::optional<Path> ways_to_brake[] = {brake_straight(rolling, 0.7 * hardest),
-                                               brake_straight(rolling, hardest),
-                                               brake_before_obstacle(rolling, hardest)};
-  for (std::optional<Path> braking : ways_to_brake) {
-    if (!braking) continue;
-    const std::optional<Path> onwards = planner.plan(braking->points.back().pose, *who.goal, options);
-    if (!onwards) continue;
-    append(*braking, *onwards);
-    return braking;
-  }
-  return path && path->length() > 0.0 && path->points.front().gear == rolling.gear() ? path : std::nullopt;
 }
 
 TeamSearch::Sources Guess::sources() {
   return {[this](int robot, std::span<const Bump> bumps, std::span<const std::vector<geom::Vec2>> parked,
-                 int expansions) { return find_path(robot, bumps, parked, expansions); },
+                 int expansions) { return paths_.around(robot, bumps, parked, expansions); },
           [this](int robot, const Path& path, double s, double offset, double beside) {
             return side_steps_[idx(scenario_.robots[idx(robot)].model)].around(path, s, offset, beside);
           },
           [this](int robot, std::span<const Traffic> traffic, const TeamSearch::Sources::Among& how) {
-            return find_path_among(robot, traffic, how);
+            return paths_.among(robot, traffic, how);
           },
           [this](int robot, const Path& way, const MakingWay::Other& other) {
             return making_way_.by_bays(robot, way, other);
@@ -208,39 +108,13 @@ Attempt Guess::new_attempt() const {
   return attempt;
 }
 
-// A car by itself has no order to change: another seed makes it try another way; and where its way changes
-// gear, the quickest of a few is taken.
-std::optional<Path> Guess::find_first_way(int robot) const {
-  constexpr int kPatience = 20000, kMoreWays = 6, kBriefly = 2000;
-  const world::Robot& who = scenario_.robots[idx(robot)];
-  const vehicle::Model& model = scenario_.model_of(who);
-  const bool alone = scenario_.robots.size() == 1 && !who.rests_at_goal();
-  const auto bumps = [&](std::uint64_t seed) {
-    return whims(who.start.position(), who.goal->position(), model.length(), seed);
-  };
-  std::optional<Path> best;
-  if (alone && options_.seed != 0) best = find_path(robot, bumps(options_.seed), {}, kPatience);
-  if (!best) best = find_path(robot, {}, {}, kPatience);
-  if (!alone || options_.seed != 0 || !options_.quickest || who.start_speed != 0.0) return best;
-  if (!best || !changes_gear(*best) || best->wriggles) return best;
-  double quickest = drive_time(*best, model);
-  for (std::uint64_t seed = 1; seed <= kMoreWays && !options_.deadline.expired(); ++seed) {
-    std::optional<Path> other = find_path(robot, bumps(seed), {}, kBriefly);
-    if (!other) break;  // in places as tight as this the next would hardly fare better
-    const double time = drive_time(*other, model);
-    if (time < quickest) quickest = time, best = std::move(other);
-  }
-  return best;
-}
-
 // The shortest path of everybody. False: somebody has none.
 bool Guess::find_first_ways(Attempt& attempt) {
   const int count = attempt.coordinator->robots();
   Workers workers(std::max(1, options_.threads));
   workers.run(count, [&](int robot) {
     if (attempt.coordinator->fixed(robot) || options_.deadline.expired()) return;
-    if (std::optional<Path> path = find_first_way(robot))
-      attempt.coordinator->add_way(robot, std::move(*path));
+    if (std::optional<Path> path = paths_.first(robot)) attempt.coordinator->add_way(robot, std::move(*path));
   });
   for (int i = 0; i < count; ++i) {
     const world::Robot& who = scenario_.robots[idx(i)];
@@ -273,7 +147,7 @@ void Guess::leave_tried_ways(Attempt& attempt) const {
       const geom::Pose2 there = pose_at(motion.path, rng.uniform(0.25, 0.75) * motion.path.length());
       bumps.push_back({there.position(), options_.team.bump_lengths * length, options_.team.bump_weight});
     }
-    std::optional<Path> path = find_path(robot, bumps, {}, options_.team.detour_expansions);
+    std::optional<Path> path = paths_.around(robot, bumps, {}, options_.team.detour_expansions);
     if (path && attempt.coordinator->add_way(robot, std::move(*path)))
       attempt.coordinator->drop_way(robot, 0);
   }
