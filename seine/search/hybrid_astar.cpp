@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "seine/search/open_entry.hpp"
+
 namespace seine::search {
 namespace {
 
@@ -28,15 +30,6 @@ struct Node {
   double room;      // once checked
   int parent;       // −1 at the root
   Stage stage = Stage::guessed;
-};
-
-struct Entry {
-  double estimate;
-  int node;
-  // A max-heap's order: the lowest estimate comes first, and the older node of two equal ones.
-  friend bool operator<(const Entry& a, const Entry& b) {
-    return a.estimate != b.estimate ? a.estimate > b.estimate : a.node > b.node;
-  }
 };
 
 /// Bin → newest node in it: open addressing, emptied in O(1) by a new generation.
@@ -85,7 +78,7 @@ class Bins {
 /// Memory that outlives a search: a search of a dozen nodes should not allocate.
 struct Scratch {
   std::vector<Node> nodes;
-  std::vector<Entry> open;
+  std::vector<OpenEntry> open;
   Bins bins;
 };
 
@@ -123,7 +116,7 @@ class Lattice {
   const LatticeProblem& p_;
   const LatticeSettings& s_;
   std::vector<Node>& nodes_;
-  std::vector<Entry>& open_;
+  std::vector<OpenEntry>& open_;
   Bins& bins_;
   Primitives moves_;
   double bin_angle_;
@@ -154,7 +147,7 @@ void Lattice::push(int index) {
 /// The open node with the lowest estimate, −1 when there is none that could better the best way.
 int Lattice::pop() {
   while (!open_.empty()) {
-    const Entry entry = open_.front();
+    const OpenEntry entry = open_.front();
     std::pop_heap(open_.begin(), open_.end());
     open_.pop_back();
     if (entry.estimate >= best_cost_) return -1;

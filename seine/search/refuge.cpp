@@ -8,6 +8,7 @@
 #include <unordered_map>
 
 #include "seine/geom/convex.hpp"
+#include "seine/search/open_entry.hpp"
 
 namespace seine::search {
 namespace {
@@ -25,14 +26,6 @@ struct Node {
   Arc arc;  // that led here
   double cost, room;
   int parent;  // −1 at the root
-};
-
-struct Entry {
-  double cost;
-  int node;
-  friend bool operator<(const Entry& a, const Entry& b) {
-    return a.cost != b.cost ? a.cost > b.cost : a.node > b.node;
-  }
 };
 
 class Search {
@@ -57,7 +50,7 @@ class Search {
   const RefugeSettings& s_;
   Primitives moves_;
   std::vector<Node> nodes_;
-  std::vector<Entry> open_;
+  std::vector<OpenEntry> open_;
   std::unordered_map<std::uint64_t, char> closed_;
   std::vector<geom::Vec2> body_;
 };

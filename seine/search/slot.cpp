@@ -9,6 +9,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "seine/search/open_entry.hpp"
 #include "seine/search/short_move.hpp"
 #include "seine/vehicle/reeds_shepp.hpp"
 
@@ -140,20 +141,13 @@ class SlotSearch {
   Route route() const;
   vehicle::DrivingCosts costs(double gear_change) const;
 
-  struct Entry {
-    double estimate;
-    int node;
-    friend bool operator<(const Entry& a, const Entry& b) {
-      return a.estimate != b.estimate ? a.estimate > b.estimate : a.node > b.node;
-    }
-  };
   const SlotProblem& p_;
   const FootprintChecker& checker_;
   const vehicle::Model& model_;
   Clock clock_;
   double length_;
   std::vector<Node> nodes_;
-  std::vector<Entry> open_;
+  std::vector<OpenEntry> open_;
   std::unordered_map<std::uint64_t, int> bins_;
   double best_ = kInfinity;
   int best_node_ = -1;
