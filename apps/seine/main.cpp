@@ -34,7 +34,7 @@ constexpr const char* kFooter = R"(Examples
   seine export team.yaml plan.json --rate 50 -o states.csv    what every car does, 50 times a second
 Files: - is the standard input or output; what a command reads it never writes over.
 Exit status: 0 done (plan: certified; simulate: everything asked for happened), 1 no (no certified plan, refuted),
-2 wrong input or usage, or an output that cannot be written, 3 undecided (certify: out of time), 130 interrupted.
+2 wrong input or usage, or an output that cannot be written, 3 undecided (a proof out of time), 130 interrupted.
 `seine COMMAND --help` tells more.)";
 
 /// One line on stderr, and with --json also an object on stdout.

@@ -94,7 +94,6 @@ int run(const Arguments& arguments, bool json) {
   planner::PlanResult result = with_places(reading, [&] { return plan(scenario, arguments, options); });
   line.clear();
   const int interrupted = interrupted_status();
-  if (interrupted != 0 && !result.certified) result.reason = "interrupted before there was a certified plan";
   if (interrupted != 0)
     std::fprintf(stderr, "seine: %s\n", result.certified ? "interrupted" : result.reason.c_str());
   if (result.certified && !arguments.output.empty()) {

@@ -1,13 +1,11 @@
 #include "bench/deceive/clean.hpp"
 
-#include <atomic>
 #include <cstdio>
 #include <mutex>
-#include <thread>
 
 #include "bench/deceive/mutants.hpp"
 #include "bench/deceive/search.hpp"
-#include "seine/base/error.hpp"
+#include "seine/base/workers.hpp"
 #include "seine/io/plan_file.hpp"
 #include "seine/io/scenario_file.hpp"
 #include "seine/planner/planner.hpp"
@@ -22,21 +20,18 @@ struct Counts {
 class CleanCampaign {
  public:
   CleanCampaign(std::uint64_t first, long count, std::filesystem::path folder)
-      : next_(first), end_(first + static_cast<std::uint64_t>(count)), folder_(std::move(folder)) {}
+      : first_(first), count_(count), folder_(std::move(folder)) {}
 
   long run(unsigned threads) {
     std::filesystem::create_directories(folder_);
-    std::vector<std::thread> crew;
-    for (unsigned i = 0; i < threads; ++i)
-      crew.emplace_back([this] {
-        for (std::uint64_t seed = next_++; seed < end_; seed = next_++) one(seed);
-      });
-    for (std::thread& worker : crew) worker.join();
+    Workers(static_cast<int>(threads)).run(static_cast<int>(count_), [this](int i) {
+      one(first_ + static_cast<std::uint64_t>(i));
+    });
     std::printf(
         "%ld certified plans (%ld tasks without one), %ld refused after writing and reading, %ld of "
         "them clean; %ld certified ones wrong by the look\n",
         counts_.plans, counts_.none, counts_.refused, counts_.refused_clean, counts_.unsound);
-    return counts_.refused_clean;
+    return counts_.refused_clean + counts_.unsound;
   }
 
  private:
@@ -69,8 +64,8 @@ class CleanCampaign {
     io::save_plan(read.scenario, result, stem + ".json");
   }
 
-  std::atomic<std::uint64_t> next_;
-  std::uint64_t end_;
+  std::uint64_t first_;
+  long count_;
   std::filesystem::path folder_;
   std::mutex mutex_;
   Counts counts_;

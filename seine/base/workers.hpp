@@ -14,7 +14,7 @@ namespace seine {
 /// A few threads that run the same function over a range of indices, many thousand times a second. The
 /// calling thread works too. Which thread takes which index is left open: callers write to places that depend
 /// on the index only, so results never depend on the number of threads. What the function throws comes out of
-/// run, one of them where there are several; by then every index has had its turn.
+/// run, one of them where there are several; which indices have had their turn by then is left open.
 class Workers {
  public:
   /// @param threads how many work at once, the caller included; 0 means as many as the machine has. Where the

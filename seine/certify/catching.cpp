@@ -49,7 +49,8 @@ std::vector<Context::Carry> carries_of(const world::Scenario& scenario,
     strictest = std::min(strictest, carry.speed);
     return implied;
   });
-  // Of too many the last asks from the time of the first that is too much: for more than there is to ask.
+  // Of more than that the last one kept stands for the rest: it gets the strictest speed from its own,
+  // earlier time on, which asks for more than is needed, never for less.
   if (carries.size() > Context::kMostCarries) {
     carries[Context::kMostCarries - 1].speed = carries.back().speed;
     carries[Context::kMostCarries - 1].target = carries.back().target;
@@ -76,8 +77,11 @@ std::vector<net::Catch> CatchCheck::run(const std::vector<std::optional<net::Cro
       continue;
     }
     if (const auto hit = world::flight_obstruction(context_.scenario, context_.scenario.targets[i], time)) {
-      note(i, hit->time, hit->height, 0.0, time - hit->time,
-           name + " " + world::describe(context_.scenario, *hit));
+      if (hit->decided)
+        note(i, hit->time, hit->height, 0.0, time - hit->time,
+             name + " " + world::describe(context_.scenario, *hit));
+      else
+        leave_open(i, hit->time, context_.obstacle_name(hit->obstacle));
     }
     check_rise(i, time);
     look_at_team(time);
@@ -182,6 +186,13 @@ void CatchCheck::note(std::size_t target, double time, double value, double limi
   findings_.push_back({{Kind::target_catch, time, -1, static_cast<int>(target), value, limit, what}, excess});
 }
 
+void CatchCheck::leave_open(std::size_t target, double time, const std::string& beside) {
+  findings_.push_back({{Kind::undecided, time, -1, static_cast<int>(target), 0.0, 0.0,
+                        format("%s could not be shown to clear %s at t = %.4f s",
+                               context_.target_name(static_cast<int>(target)).c_str(), beside.c_str(), time)},
+                       0.0});
+}
+
 void CatchCheck::check_rise(std::size_t target, double crossing) {
   const net::Target& rising = context_.scenario.targets[target];
   const net::Flight flight(rising);
@@ -190,11 +201,9 @@ void CatchCheck::check_rise(std::size_t target, double crossing) {
   double fastest = 0.0;
   for (std::size_t k = 0; k < plan_.robots.size(); ++k) {
     const vehicle::Model& model = context_.scenario.model_of(context_.scenario.robots[k]);
-    double reach = geom::norm(net_.attachments[k].at);
-    for (const Vec2 p : model.footprint) reach = std::max(reach, geom::norm(p));
-    const double bend = std::tan(model.limits.steering) / model.wheelbase;
-    fastest =
-        std::max(fastest, std::max(model.limits.speed, model.limits.reverse_speed) * (1.0 + bend * reach));
+    const double reach = std::max(geom::norm(net_.attachments[k].at), model.reach());
+    fastest = std::max(fastest, std::max(model.limits.speed, model.limits.reverse_speed) *
+                                    (1.0 + model.max_curvature() * reach));
   }
   const double speed = fastest + std::hypot(rising.velocity.x, rising.velocity.y, rising.velocity.z) +
                        net::kGravity * (crossing - rising.time);
@@ -203,7 +212,8 @@ void CatchCheck::check_rise(std::size_t target, double crossing) {
     const Vec2 at = flight.at(t).position.ground();
     const auto [gap, through] = nearest_of_team(at, std::max(t, 0.0));
     const double left = gap - rising.radius;
-    if (left < tolerance::kNetProved || steps > kMostRiseSteps) {
+    if (steps > kMostRiseSteps) return leave_open(target, t, through);
+    if (left < tolerance::kNetProved) {
       note(target, t, left, 0.0, std::max(-left, tolerance::kNetProved),
            format("%s rises through %s at t = %.4f s, below the rim of the net",
                   context_.target_name(static_cast<int>(target)).c_str(), through.c_str(), t));

@@ -46,6 +46,7 @@ class CatchCheck {
   void check_rise(std::size_t target, double crossing);
   /// How far a point on the ground is from the net's polygon and from all cars at time t, m, and from which.
   std::pair<double, std::string> nearest_of_team(geom::Vec2 at, double t);
+  void leave_open(std::size_t target, double time, const std::string& beside);
   void note(std::size_t target, double time, double value, double limit, double excess,
             const std::string& what);
 

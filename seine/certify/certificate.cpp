@@ -192,7 +192,7 @@ Verdict Certificate::verdict() const {
   if (holds) return Verdict::holds;
   const bool open = std::all_of(violations.begin(), violations.end(),
                                 [](const Violation& v) { return v.kind == Kind::undecided; });
-  return open && !violations.empty() ? Verdict::undecided : Verdict::refuted;
+  return open ? Verdict::undecided : Verdict::refuted;
 }
 
 Certificate certify(const world::Scenario& scenario, const world::StaticMap& map,

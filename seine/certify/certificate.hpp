@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <limits>
 #include <string>
 #include <vector>
@@ -106,7 +105,8 @@ struct Options {
 };
 
 /// Proves in continuous time that `plan` keeps everything the scenario asks, or says what it breaks. Never
-/// throws on a bad plan: that is a verdict. The result does not depend on the number of threads.
+/// throws on a bad plan: that is a verdict; a scenario whose numbers make no sense throws
+/// world::Unsound. The result does not depend on the number of threads.
 Certificate certify(const world::Scenario& scenario, const world::StaticMap& map,
                     const traj::TeamTrajectory& plan, const Options& options = {});
 

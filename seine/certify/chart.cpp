@@ -79,11 +79,11 @@ class Charter {
     for (Finding& finding : limits_.findings()) chart_.findings.push_back(std::move(finding));
     if (backwards_ > granted_.backwards) {
       complain(backwards_at_, Kind::gear, backwards_, granted_.backwards,
-               "it drives against its gear by so many metres in all, most of them");
+               "its way against the gear (m, in all), most of it");
     }
     if (off_curve_ > tolerance::kRange) {
       complain(off_curve_at_, Kind::continuity, off_curve_, tolerance::kRange,
-               "its progress u leaves the pieces of the curve by so much");
+               "how far its progress u leaves the pieces of the curve");
     }
   }
 
@@ -136,8 +136,9 @@ class Charter {
     look_at_range(segment, stretch, from, to);
     if (failed_) return;
     if (chunk.backwards > 0.0) {
-      if (backwards_ == 0.0) backwards_at_ = stretch.clock(from.w);
-      backwards_ += chunk.backwards * tangent;
+      const double back = chunk.backwards * tangent;
+      if (back > most_backwards_) most_backwards_ = back, backwards_at_ = stretch.clock(from.w);
+      backwards_ += back;
     }
     joints_.join(*last_, side_of(stretch, from), stretch.clock(from.w), joint_);
     if (chunk.knot_near >= 0.0) chart_both_sides(segment, j, chunk, clock);
@@ -260,17 +261,18 @@ class Charter {
   Granted granted_;
   Joints joints_;
   LimitProof limits_;
-  std::vector<double> tangents_;                 // m, of each curve piece of the segment at hand
-  std::vector<Chunk> chunks_;                    // of the progress piece at hand
-  double least_tangent_ = 0.0;                   // m, on the chunk at hand
-  int direction_ = 1;                            // of the chunk at hand
-  std::optional<Side> last_;                     // where the chunk before ended
-  const char* joint_ = kBetweenCurvePieces;      // before the next chunk
-  bool stops_ = false;                           // whether the car rests before this segment …
-  double wait_ = 0.0;                            // s, … for so long
-  int gear_ = 0;                                 // of the segment before
-  double backwards_ = 0.0, backwards_at_ = 0.0;  // m against the gear, s
-  double off_curve_ = 0.0, off_curve_at_ = 0.0;  // u outside [0, M] at most, s
+  std::vector<double> tangents_;                   // m, of each curve piece of the segment at hand
+  std::vector<Chunk> chunks_;                      // of the progress piece at hand
+  double least_tangent_ = 0.0;                     // m, on the chunk at hand
+  int direction_ = 1;                              // of the chunk at hand
+  std::optional<Side> last_;                       // where the chunk before ended
+  const char* joint_ = kBetweenCurvePieces;        // before the next chunk
+  bool stops_ = false;                             // whether the car rests before this segment …
+  double wait_ = 0.0;                              // s, … for so long
+  int gear_ = 0;                                   // of the segment before
+  double backwards_ = 0.0, most_backwards_ = 0.0;  // m against the gear, in all and in one chunk
+  double backwards_at_ = 0.0;                      // s, that chunk
+  double off_curve_ = 0.0, off_curve_at_ = 0.0;    // u outside [0, M] at most, s
   bool failed_ = false;
 };
 

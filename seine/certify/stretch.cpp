@@ -10,12 +10,8 @@ using traj::Quintic;
 
 /// Derivatives 0 … 5 of a quintic by its parameter.
 std::array<double, 6> derivatives(const Quintic& c, double w) {
-  return {c[0] + w * (c[1] + w * (c[2] + w * (c[3] + w * (c[4] + w * c[5])))),
-          c[1] + w * (2.0 * c[2] + w * (3.0 * c[3] + w * (4.0 * c[4] + w * 5.0 * c[5]))),
-          2.0 * c[2] + w * (6.0 * c[3] + w * (12.0 * c[4] + w * 20.0 * c[5])),
-          6.0 * c[3] + w * (24.0 * c[4] + w * 60.0 * c[5]),
-          24.0 * c[4] + w * 120.0 * c[5],
-          120.0 * c[5]};
+  const auto d = traj::derivatives_at(c, w);
+  return {d[0], d[1], d[2], d[3], 24.0 * c[4] + w * 120.0 * c[5], 120.0 * c[5]};
 }
 
 /// Upper bounds of |f^(k)|, k = 1 … 5, within `r` of the point where the magnitudes are `at`: Taylor's

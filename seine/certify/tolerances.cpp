@@ -24,7 +24,7 @@ Granted granted_to(const vehicle::Model& model) {
 double smallest_size(const world::Scenario& scenario) {
   double size = 1.0;
   for (const world::Robot& robot : scenario.robots)
-    size = std::min(size, scenario.model_of(robot).length() / tolerance::kShortCar);
+    size = std::min(size, granted_to(scenario.model_of(robot)).size);
   return size;
 }
 

@@ -13,6 +13,7 @@
 namespace seine::io {
 
 /// Columns `robot,t,x,y,heading,speed,acceleration,steering` (speed signed); numbers with all their digits.
+/// Throws InputError for a plan of another team, and for a rate that is none or asks for too many rows.
 /// @param rate Hz
 std::string states_csv(const world::Scenario& scenario, const traj::TeamTrajectory& plan, double rate);
 

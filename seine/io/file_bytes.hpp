@@ -20,9 +20,10 @@ std::string why_unreadable(const std::filesystem::path& path);
 /// A text without the byte order mark (UTF-8) that some programs write at its beginning.
 std::string_view without_mark(std::string_view text);
 
-/// Writes all of `content` or nothing. A file that is replaced keeps its mode, its owner and all its names
-/// (symbolic and hard links); an interrupted write leaves nothing behind. Where `path` is no regular file (a
-/// pipe, a terminal) it is written directly. Throws InputError when that fails.
+/// Writes all of `content` or nothing, where the file system can. A file that is replaced keeps its mode, its
+/// owner and all its names (symbolic and hard links); one with several hard links or another owner is
+/// overwritten in place, once there is room for all of it. An interrupted write leaves nothing behind. Where
+/// `path` is no regular file (a pipe, a terminal) it is written directly. Throws InputError when that fails.
 void write_file(const std::filesystem::path& path, std::string_view content);
 
 /// Writes to an open file, all of it. False, with errno, when that fails.

@@ -12,7 +12,7 @@
 namespace seine::io {
 namespace {
 
-constexpr double kStateRate = 20.0;    // Hz, design section 10
+constexpr double kStateRate = 20.0;    // Hz, docs/plan-format.md
 constexpr double kMostStates = 300e3;  // of a team; long plans of many cars have fewer a second
 
 template <class Range, class Write>

@@ -12,7 +12,7 @@
 // What `--json` prints: one JSON object and a line end.
 namespace seine::io {
 
-/// The outcome of planning (design section 10). Keys without a meaning are left out: costs without a
+/// The outcome of planning. Keys without a meaning are left out: costs without a
 /// certified plan, clearances that are beyond what the certificate looks at.
 std::string report_json(const world::Scenario& scenario, const planner::PlanResult& result);
 

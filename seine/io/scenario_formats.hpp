@@ -19,7 +19,7 @@ inline constexpr double kWidestWorld = 2e6;  // m
 inline constexpr Range kSize{1e-4, 1e4};
 inline constexpr Range kMargin{0.0, 100.0};
 
-/// Seine's own format (design section 9).
+/// Seine's own format (docs/scenario.md).
 world::Scenario read_native(const YamlValue& root, const std::string& name,
                             const std::filesystem::path& folder, Reading* reading);
 

@@ -70,8 +70,10 @@ PlanResult by(const Method& method, const world::Scenario& scenario, const Optio
   const world::Scenario& task = mended ? *mended : scenario;
   const auto origin = world::local_origin(task);
   PlanResult result = origin ? from_afar(method, task, *origin, options) : method(task, options);
-  // Huge tasks may use up a short deadline before the first attempt.
-  if (!result.certified && result.reason.empty())
+  if (result.certified || result.impossible) return result;
+  if (options.cancelled != nullptr && *options.cancelled)
+    result.reason = "interrupted before there was a certified plan";
+  else if (result.reason.empty())  // huge tasks may use up a short deadline before the first attempt
     result.reason =
         "gave up at the deadline while the task was still being read and checked; allow more time";
   return result;

@@ -134,7 +134,8 @@ bool NetSession::solve_guess(int rounds) {
 // Of what does not hold the nearest is told, by what it lacks most.
 void NetSession::keep_nearest() {
   const certify::Violation* fault = worst(result_.certificate);
-  if (fault == nullptr || severity(result_.certificate) >= nearest_) return;
+  if (fault == nullptr) return;
+  if (!fault_.empty() && severity(result_.certificate) >= nearest_) return;
   nearest_ = severity(result_.certificate);
   fault_ = fault->text;
 }
@@ -160,6 +161,7 @@ bool NetSession::go_on() {
   result_.times.corridor += watch.seconds();
   solve(false);
   polish(kGoOnRounds);
+  if (!result_.certified) keep_nearest();
   return result_.certified;
 }
 

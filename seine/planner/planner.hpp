@@ -53,7 +53,7 @@ struct Times {
   double certify = 0.0;
 };
 
-/// What a plan costs (design section 10).
+/// What a plan costs.
 struct Quality {
   double makespan = 0.0;           ///< s
   double mean_travel = 0.0;        ///< s, mean over robots of their own arrival times
@@ -77,7 +77,8 @@ struct PlanResult {
 };
 
 /// Plans for the whole team. An impossible or unsolved task is a result with a reason; a scenario that is
-/// wrong in itself (a start in collision, two goals that overlap) throws InputError.
+/// wrong in itself (a start in collision, two goals that overlap) throws InputError, and so do options that
+/// make no sense: a deadline that is not a number, a previous plan of another team.
 PlanResult plan(const world::Scenario& scenario, const Options& options = {});
 
 Quality measure(const traj::TeamTrajectory& plan);

@@ -58,8 +58,6 @@ class Ground {
   std::vector<int> steps_to_goal() const;
 
  private:
-  int columns_ = 0, rows_ = 0;
-  std::vector<int> number_;  // by place: kNone unknown, kTaken blocked
   std::vector<Cell> cells_;
   int goal_ = kNone;
   bool complete_ = false;
@@ -68,12 +66,13 @@ class Ground {
 Ground::Ground(const world::StaticMap& map, const Disc& disc, double side, std::size_t most) {
   constexpr int kBlocked = -2;
   const geom::Box& box = map.bounds();
-  columns_ = static_cast<int>(std::ceil(box.size().x / side)) + 1;
-  rows_ = static_cast<int>(std::ceil(box.size().y / side)) + 1;
-  if (static_cast<double>(columns_) * rows_ > 64.0 * static_cast<double>(most)) return;
-  number_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), kNone);
+  const int columns = static_cast<int>(std::ceil(box.size().x / side)) + 1;
+  const int rows = static_cast<int>(std::ceil(box.size().y / side)) + 1;
+  if (static_cast<double>(columns) * rows > 64.0 * static_cast<double>(most)) return;
+  // The number of the cell at each place; kNone: not looked at yet.
+  std::vector<int> numbers(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), kNone);
   const auto place = [&](int column, int row) -> int& {
-    return number_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+    return numbers[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
                    static_cast<std::size_t>(column)];
   };
   const double around = side * std::sqrt(0.5), cap = disc.needed + side;
@@ -83,7 +82,7 @@ Ground::Ground(const world::StaticMap& map, const Disc& disc, double side, std::
   };
   // The number of the cell there.
   const auto visit = [&](int column, int row) {
-    if (column < 0 || row < 0 || column >= columns_ || row >= rows_) return kNone;
+    if (column < 0 || row < 0 || column >= columns || row >= rows) return kNone;
     int& number = place(column, row);
     if (number == kNone) {
       number = free(column, row) ? static_cast<int>(cells_.size()) : kBlocked;
@@ -102,8 +101,7 @@ Ground::Ground(const world::StaticMap& map, const Disc& disc, double side, std::
     }
   }
   const int column = column_of(disc.goal), row = row_of(disc.goal);
-  if (column >= 0 && row >= 0 && column < columns_ && row < rows_)
-    goal_ = std::max(place(column, row), kNone);
+  if (column >= 0 && row >= 0 && column < columns && row < rows) goal_ = std::max(place(column, row), kNone);
   complete_ = true;
 }
 

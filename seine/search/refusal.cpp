@@ -50,10 +50,8 @@ std::string advice(const Refusal& refusal, double margin) {
               margin);
 }
 
-}  // namespace
-
 // What stands nearest to the place, and what is hardly further away on another side.
-std::string beside(const world::StaticMap& map, const Bottleneck& place) {
+std::string what_is_beside(const world::StaticMap& map, const Bottleneck& place) {
   constexpr double kWider = 1.3;
   const double cap = 0.5 * kWider * place.width + kGranted;
   std::vector<std::pair<double, std::string>> found;  // every obstacle once
@@ -77,6 +75,8 @@ std::string beside(const world::StaticMap& map, const Bottleneck& place) {
   return found.size() == 1 ? found[0].second : found[0].second + " and " + found[1].second;
 }
 
+}  // namespace
+
 Refusal why_no_way(const world::Scenario& scenario, const world::StaticMap& map, int robot) {
   const world::Robot& car = scenario.robots[static_cast<std::size_t>(robot)];
   const vehicle::Model& model = scenario.model_of(car);
@@ -93,13 +93,13 @@ Refusal why_no_way(const world::Scenario& scenario, const world::StaticMap& map,
                  refusal.needed - kGranted, std::max(0.5 * model.length() + margin, refusal.needed));
   if (refusal.place && refusal.place->upper_width < refusal.needed - kGranted)
     refusal.cause = cause_of(*refusal.place, map.bounds());
-  if (refusal.place) refusal.beside = beside(map, *refusal.place);
+  if (refusal.place) refusal.beside = what_is_beside(map, *refusal.place);
   return refusal;
 }
 
 std::string sentence(const Refusal& refusal, const world::Scenario& scenario, int robot) {
   const world::Robot& car = scenario.robots[static_cast<std::size_t>(robot)];
-  const double margin = scenario.margins.obstacle;
+  const double margin = 0.5 * (refusal.needed - refusal.width);
   if (refusal.cause == Cause::no_time) return car.name + ": the deadline came before a path was found";
   const geom::Vec2 at = refusal.place ? scenario.origin + refusal.place->at : geom::Vec2{};
   if (refusal.cause != Cause::no_room_found) {

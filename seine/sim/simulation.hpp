@@ -131,7 +131,8 @@ struct SimulationResult {
 };
 
 /// Lets the team drive `plan` in the world of `scenario`, with sensors, delays and physics. `plan` is trusted
-/// to be certified. The same for the same seed, as long as controller and replanner are.
+/// to be certified. Throws InputError for a plan of another team, a missing controller, or numbers that make
+/// no sense. The same for the same seed, as long as controller and replanner are.
 SimulationResult simulate(const world::Scenario& scenario, const traj::TeamTrajectory& plan,
                           const Controller& controller, const SimulationOptions& options = {});
 

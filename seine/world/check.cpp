@@ -90,18 +90,26 @@ bool check_motion(const Obstacle& obstacle, const std::string& name, Complaints&
   return true;
 }
 
-bool check_obstacle(const Obstacle& obstacle, const std::string& name, Complaints& out) {
+bool check_obstacle_numbers(const Obstacle& obstacle, const std::string& name, Complaints& out) {
   if (const auto* circle = std::get_if<Circle>(&obstacle.shape)) {
     if (!require(circle->radius > 0.0 && std::isfinite(circle->radius), "the radius of " + name,
-                 circle->radius, "a positive number", out)) {
+                 circle->radius, "a positive number", out) ||
+        !require(std::isfinite(circle->center.x + circle->center.y), "the centre of " + name,
+                 circle->center.x + circle->center.y, "finite numbers", out))
+      return false;
+  }
+  return require(obstacle.height > 0.0, "the height of " + name, obstacle.height, "a positive number", out) &&
+         check_motion(obstacle, name, out);
+}
+
+bool check_obstacle(const Obstacle& obstacle, const std::string& name, Complaints& out) {
+  if (const auto* polygon = std::get_if<std::vector<Vec2>>(&obstacle.shape)) {
+    if (const std::string why = geom::why_not_simple(*polygon); !why.empty()) {
+      out.push_back(name + " is not a simple polygon: " + why);
       return false;
     }
-  } else if (const std::string why = geom::why_not_simple(std::get<std::vector<Vec2>>(obstacle.shape));
-             !why.empty()) {
-    out.push_back(name + " is not a simple polygon: " + why);
-    return false;
   }
-  return check_motion(obstacle, name, out);
+  return check_obstacle_numbers(obstacle, name, out);
 }
 
 // A car at one of its ends.
@@ -358,7 +366,7 @@ Complaints check_numbers(const Scenario& scenario) {
   for (const vehicle::Model& model : scenario.models) model_fine.push_back(check_model(model, out));
   for (std::size_t i = 0; i < scenario.robots.size(); ++i) check_robot(scenario, i, model_fine, out);
   for (std::size_t i = 0; i < scenario.obstacles.size(); ++i)
-    check_motion(scenario.obstacles[i], name_of(scenario.obstacles[i], i), out);
+    check_obstacle_numbers(scenario.obstacles[i], name_of(scenario.obstacles[i], i), out);
   check_net_numbers(scenario, out);
   return out;
 }

@@ -8,9 +8,9 @@
 
 namespace seine::world {
 
-/// What a scenario asks, in six numbers: two scenarios that ask the same have the same, however their files
-/// are written, and two that do not differ in at least one (to within 1 in 2⁶⁴). Names of scenario, models
-/// and obstacles are not part of it. The same on every machine.
+/// What a scenario asks, in six numbers: scenarios of the same numbers in the same order have the same,
+/// however their files are written, and two that do not differ in at least one (to within 1 in 2⁶⁴). Names of
+/// scenario, models and obstacles are not part of it. The same on every machine.
 struct Fingerprint {
   std::uint64_t robots = 0;   ///< names, starts, start speeds, goals
   std::uint64_t models = 0;   ///< of each robot: footprint, wheelbase, limits

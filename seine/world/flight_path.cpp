@@ -78,8 +78,9 @@ std::optional<FlightObstruction> flight_obstruction(const Scenario& scenario, co
       const geom::Vec3 at = flight.at(t).position;
       const double left = distance_to(body, pose_at(obstacle.motion, t), obstacle.height, at) - target.radius;
       out = out || left >= kNear;
-      if ((out && left < kNear) || step >= kMostSteps) {
-        if (!first || t < first->time) first = {static_cast<int>(i), t, at.z};
+      const bool hits = out && left < kNear;
+      if (hits || step >= kMostSteps) {
+        if (!first || t < first->time) first = {static_cast<int>(i), t, at.z, hits};
         break;
       }
       t += out ? left / closing : kLeaving;

@@ -13,6 +13,7 @@ struct FlightObstruction {
   int obstacle = -1;    ///< index into Scenario::obstacles
   double time = 0.0;    ///< s, common clock
   double height = 0.0;  ///< m, of the object's centre then
+  bool decided = true;  ///< false: it comes so near for so long that no more is known
 };
 
 /// The first obstacle that the target hits between its release and `until` (s), if any: obstacles that stand

@@ -276,18 +276,22 @@ void check_target(const Scenario& scenario, const net::Target& target, const std
   } else if (crossing->state.time < 0.0) {
     out.push_back(name + " falls through the rim of the net at t = " + number(crossing->state.time) +
                   " s, before the plan begins");
-  } else if (const auto hit = flight_obstruction(scenario, target, crossing->state.time)) {
+  } else if (const auto hit = flight_obstruction(scenario, target, crossing->state.time);
+             hit && hit->decided) {
     out.push_back(name + " " + describe(scenario, *hit));
   }
 }
 
+bool check_payload_numbers(const net::Payload& payload, Complaints& out) {
+  return require(payload.radius > 0.0 && std::isfinite(payload.radius), "the radius of the payload",
+                 payload.radius, "a positive number", out) &&
+         require(payload.mass > 0.0 && std::isfinite(payload.mass), "the mass of the payload", payload.mass,
+                 "a positive number", out);
+}
+
 void check_payload(const Scenario& scenario, Complaints& out) {
   const net::Payload& payload = *scenario.payload;
-  if (!require(payload.radius > 0.0 && std::isfinite(payload.radius), "the radius of the payload",
-               payload.radius, "a positive number", out) ||
-      !require(payload.mass > 0.0 && std::isfinite(payload.mass), "the mass of the payload", payload.mass,
-               "a positive number", out))
-    return;
+  if (!check_payload_numbers(payload, out)) return;
   const double widest = net::inradius(scenario.net->rest);
   if (payload.radius > widest)
     out.push_back("the payload has a radius of " + metres(payload.radius) +
@@ -327,11 +331,7 @@ void check_net_numbers(const Scenario& scenario, Complaints& out) {
   if (!check_team(scenario, out)) return;
   for (std::size_t i = 0; i < scenario.targets.size(); ++i)
     check_target_numbers(scenario.targets[i], "target " + std::to_string(i + 1), out);
-  if (!scenario.payload) return;
-  require(scenario.payload->radius > 0.0 && std::isfinite(scenario.payload->radius),
-          "the radius of the payload", scenario.payload->radius, "a positive number", out);
-  require(scenario.payload->mass > 0.0 && std::isfinite(scenario.payload->mass), "the mass of the payload",
-          scenario.payload->mass, "a positive number", out);
+  if (scenario.payload) check_payload_numbers(*scenario.payload, out);
 }
 
 void check_net(const Scenario& scenario, const StaticMap& map, Complaints& out) {

@@ -23,7 +23,8 @@ class StaticMap {
     int obstacle = -1;  ///< index into Scenario::obstacles, −1 for the map and what lies outside it
   };
 
-  /// Throws InputError when an obstacle's polygon is not simple.
+  /// Throws InputError when an obstacle's polygon is not simple, or the map has not as many cells as its size
+  /// says.
   explicit StaticMap(const Scenario& scenario);
 
   const geom::Box& bounds() const { return bounds_; }

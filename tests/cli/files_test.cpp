@@ -145,6 +145,7 @@ TEST_F(Sacred, AFullDiskIsAnErrorEverywhere) {
     const Outcome outcome = scratch.run_in_shell(command);
     EXPECT_EQ(outcome.status, 2) << command;
     EXPECT_TRUE(is_one_line(outcome.err) || outcome.err.find("CERTIFIED") == 0) << command << outcome.err;
+    EXPECT_NE(outcome.err.find("seine: "), std::string::npos) << command << outcome.err;
   }
 }
 
@@ -166,7 +167,11 @@ TEST_F(Sacred, DashIsStdinAndStdout) {
   EXPECT_EQ(scratch.run("certify task.yaml - <q.json").status, 0);
   EXPECT_NE(scratch.run("plot task.yaml q.json -o -").out.find("</svg>"), std::string::npos);
   EXPECT_EQ(scratch.run("export task.yaml q.json -o -").out.find("robot,t,x"), 0u);
-  EXPECT_EQ(scratch.run("simulate task.yaml q.json --log -").out.find("DELIVERED"), std::string::npos);
+  const Outcome log = scratch.run("simulate task.yaml q.json --log -");
+  EXPECT_EQ(log.status, 0);
+  EXPECT_EQ(log.out.find("t,plan_time"), 0u);
+  EXPECT_EQ(log.out.find("ARRIVED"), std::string::npos);
+  EXPECT_NE(log.err.find("ARRIVED"), std::string::npos);
   EXPECT_EQ(scratch.run("bench task.yaml -o -").out.find("# seine "), 0u);
   EXPECT_EQ(scratch.run("generate swap --robots 3 -o -").out.find("seine: 1"), 0u);
   EXPECT_FALSE(scratch.has("-"));

@@ -152,6 +152,14 @@ TEST_F(PlantedOffence, AnotherRoomsTestCode) {
   expect_offence("belongs to the tests of room geom");
 }
 
+TEST_F(PlantedOffence, OnlyTestsOfTheWholeHouseBorrowARoomsTestCode) {
+  write("seine/geom/test/planted.hpp", "\n");
+  write("tests/all.cpp", "#include \"seine/geom/test/planted.hpp\"\n");
+  EXPECT_EQ(joined(offences(root_)), "");
+  write("bench/run.cpp", "#include \"seine/geom/test/planted.hpp\"\n");
+  expect_offence("belongs to the tests of room geom");
+}
+
 TEST_F(PlantedOffence, ASecretToldElsewhere) {
   write("seine/geom/file.cpp", "#include <yaml-cpp/yaml.h>\n");
   expect_offence("is the business of io only");

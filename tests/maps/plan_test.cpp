@@ -5,7 +5,6 @@
 
 #include <cstdlib>
 
-#include "seine/base/deadline.hpp"
 #include "seine/base/effort.hpp"
 #include "seine/planner/planner.hpp"
 #include "seine/world/check.hpp"
@@ -55,7 +54,7 @@ TEST(MapPlans, DriveThroughNothing) {
     ++asked;
     Options options;
     options.threads = 1;
-    options.deadline_s = 0.5;
+    options.deadline_s = 0.5 * effort(1, 30);
     const PlanResult result = plan(*scenario, options);
     if (!result.certified) continue;
     ++planned;

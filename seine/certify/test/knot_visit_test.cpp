@@ -29,8 +29,8 @@ bool may_visit(Vec2 elsewhere, double depth) {
 TEST(KnotVisit, IsSeenHoweverShort) {
   for (const double depth : {1e-12, 6e-13, 4.9e-13, 4e-13, 1e-13, 1e-14, 1e-15, 4.5e-16}) {
     for (const double sign : {1.0, -1.0}) {
-      EXPECT_FALSE(may_visit({5.0, 5.0}, sign * depth)) << depth;
-      EXPECT_TRUE(may_visit({1.0, 0.0}, sign * depth)) << depth;
+      EXPECT_FALSE(may_visit({5.0, 5.0}, sign * depth)) << sign * depth;
+      EXPECT_TRUE(may_visit({1.0, 0.0}, sign * depth)) << sign * depth;
     }
   }
 }

@@ -29,9 +29,11 @@ Motion random_motion(Rng& rng) {
           .piece_length = rng.uniform(0.5, 1.5)};
 }
 
-/// The verdict without what these plans do on purpose: they brake harder than a payload may be braked.
+/// The verdict without what the loaded ones of these plans do on purpose: they brake harder than a payload
+/// may be braked.
 Certificate judged(const NetTeam& team) {
   Certificate certificate = team.judge();
+  if (!team.scenario.payload) return certificate;
   std::erase_if(certificate.violations, [](const Violation& v) { return v.kind == Kind::braking; });
   certificate.holds = certificate.violations.empty();
   return certificate;

@@ -303,6 +303,15 @@ TEST(PlantedCatch, BrakesTooHardWithSomethingInTheNet) {
   EXPECT_TRUE(breaks(team.judge(), Kind::braking, 2)) << summary(team.judge());
 }
 
+TEST(PlantedCatch, APayloadIsBrakedJustAsHardAsAllowed) {
+  for (const double share : {0.99, 1.01}) {  // of the limit at the start and at the end
+    const double duration = std::numbers::pi * std::sqrt(2.0 / (share * net::kBraking));
+    NetTeam team = driving_team(regular(4, kOpen * kRadius), regular(4, kRadius), 4.0, duration);
+    team.scenario.payload = net::Payload{};
+    EXPECT_EQ(breaks(team.judge(), Kind::braking), share > 1.0) << summary(team.judge());
+  }
+}
+
 TEST(PlantedCatch, MayAccelerateHardUntilTheCatch) {
   // Hard at first, gently afterwards: when the target falls in decides.
   traj::TeamTrajectory plan;

@@ -206,8 +206,8 @@ TEST(Siblings, TeleportWhereTheTangentVanishes) {
   });
 }
 
-TEST(Siblings, TeleportBetweenPlacesAlike) {
-  // A closed curve: after a jump of u the car is where it was, but the wheel is not, or it looks elsewhere.
+TEST(Siblings, TheWheelJumpsAtAKnot) {
+  // Place and heading agree there, the wheel does not.
   expect_refused(10000, [](Rng& rng, Case& c) {
     const double l = c.length * rng.uniform(3.0, 10.0),
                  bend = rng.uniform(0.5, 1.0) * c.model.max_curvature();

@@ -34,7 +34,8 @@ TEST(SoundPlans, AnotherUnitOfTheParameter) {
     const traj::TeamTrajectory plan{{way}};
     const world::Scenario scenario = scenario_for(plan, car(), 100.0);
     const Certificate certificate = certify(scenario, world::StaticMap(scenario), plan);
-    EXPECT_TRUE(certificate.holds) << "factor " << factor << ": " << summary(certificate);
+    EXPECT_TRUE(certificate.holds) << "seed " << 18000 + trial << ", factor " << factor << ": "
+                                   << summary(certificate);
   }
 }
 
@@ -52,7 +53,7 @@ TEST(SoundPlans, RoundedToNineDigits) {
         for (double& value : c) value = rounded(value);
     }
     const Certificate certificate = certify(scenario, world::StaticMap(scenario), plan);
-    EXPECT_TRUE(certificate.holds) << summary(certificate);
+    EXPECT_TRUE(certificate.holds) << "seed " << 19000 + trial << ": " << summary(certificate);
   }
 }
 

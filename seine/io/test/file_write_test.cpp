@@ -45,7 +45,7 @@ TEST(WriteFile, IsAllOrNothing) {
   const fs::path file = folder / "f.txt";
   const std::string first(200000, 'a'), second(300000, 'b');
   write_file(file, first);
-  std::vector<std::thread> writers;
+  std::vector<std::jthread> writers;
   for (int k = 0; k < 3; ++k)
     writers.emplace_back([&, k] {
       for (int i = 0; i < effort(40, 10); ++i) write_file(file, (i + k) % 2 == 0 ? first : second);
@@ -54,7 +54,7 @@ TEST(WriteFile, IsAllOrNothing) {
     const std::string seen = read_file(file, 1 << 20);
     ASSERT_TRUE(seen == first || seen == second) << seen.size();
   }
-  for (std::thread& writer : writers) writer.join();
+  for (std::jthread& writer : writers) writer.join();
   EXPECT_EQ(folder.entries(), 1u);
   for (int i = 0; i < effort(30, 5); ++i) {
     const pid_t child = ::fork();

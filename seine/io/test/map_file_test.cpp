@@ -172,6 +172,8 @@ TEST(MapFile, MovingAiMistakesAreNamed) {
   };
   EXPECT_EQ(said("type octile\nheight 1\nwidth 2\nmap\n.@\n"), "");
   EXPECT_EQ(said("type octile\nheight 1\nwidth 2\nmap\n.\n\n"), "a.map:5: has 1 cells, expected 2");
+  EXPECT_EQ(said("type octile\nheight 99999\nwidth 99999\nmap\n.\n"),
+            "a.map:3: has too many cells, expected at most 25 million");
   EXPECT_EQ(said("type octile\nheight 4999\nwidth 4999\nmap\n.\n"),
             "a.map:5: is too short for its width and height");
   EXPECT_EQ(said("type octile\nheight x\n"),

@@ -69,7 +69,7 @@ TEST(Flight, AgreesWithAnAdaptiveIntegrator) {
   Rng rng(kSeed);
   const int flights = effort(400, 40);
   for (int i = 0; i < flights; ++i) {
-    SCOPED_TRACE("seed 57, flight " + std::to_string(i));
+    SCOPED_TRACE("seed " + std::to_string(kSeed) + ", flight " + std::to_string(i));
     Target target;
     target.time = rng.uniform(-1.0, 2.0);
     target.position = {rng.uniform(-5, 5), rng.uniform(-5, 5), rng.uniform(1.2, 4.0)};
@@ -90,6 +90,7 @@ TEST(Flight, AgreesWithAnAdaptiveIntegrator) {
       EXPECT_NEAR(found.position.y, static_cast<double>(there[1]), 2e-6);
       EXPECT_NEAR(found.position.z, static_cast<double>(there[2]), 2e-6);
       EXPECT_NEAR(found.velocity.x, static_cast<double>(there[3]), 1e-4);
+      EXPECT_NEAR(found.velocity.y, static_cast<double>(there[4]), 1e-4);
       EXPECT_NEAR(found.velocity.z, static_cast<double>(there[5]), 1e-4);
     }
     EXPECT_NEAR(flight.at(crossing->state.time).position.z, rim, 2e-6);

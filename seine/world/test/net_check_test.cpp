@@ -219,7 +219,7 @@ TEST(CheckNet, ADeliveryThatContradictsTheRest) {
       {"car0 and car1 hold the net", "at the goals"});
 }
 
-TEST(NetCheck, ACovarianceIsOne) {
+TEST(CheckNet, ACovarianceIsOne) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const auto& [i, j, value] :
        {std::tuple{0, 0, nan}, {0, 0, -1.0}, {5, 5, -1e-3}, {0, 1, 0.5}, {2, 3, nan}}) {
