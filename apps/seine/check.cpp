@@ -108,7 +108,7 @@ std::string told(const world::Scenario& scenario, const Findings& findings) {
                      scenario.name + ", " + std::to_string(scenario.robots.size()) +
                      (scenario.robots.size() == 1 ? " car\n" : " cars\n");
   for (const std::string& error : findings.errors) text += "  error    " + error + "\n";
-  for (const std::string& reason : findings.impossible) text += "  no answer  " + reason + "\n";
+  for (const std::string& reason : findings.impossible) text += "  no       " + reason + "\n";
   for (const std::string& warning : findings.warnings) text += "  warning  " + warning + "\n";
   for (const Place& place : findings.places) {
     text += std::string(place.goal ? "  goal     " : "  start    ") + place.car;
